@@ -33,6 +33,13 @@ export function startPart(part, make = () => new Worker(WORKER, { type: "module"
 /** Built-in subjects that are volumes. */
 const VOLUMES = ["bar", "cube", "tomato", "piggybank", "head", "hand", "torso", "knee"];
 
+/** The path of an address at the page's own host; null for any other, and for what is no address. */
+function ownPath(src, base) {
+  if (typeof src !== "string" || !URL.canParse(src, base)) return null;
+  const { origin, pathname } = new URL(src, base);
+  return origin === self.origin ? pathname : null;
+}
+
 /**
  * The part that the subject of a document needs, as far as its JSON tells without the viewer; else null, and the viewer tells.
  * `base` is what relative addresses are relative to.
@@ -44,11 +51,15 @@ export function partOf(json, base) {
   } catch {
     return null;
   }
-  if (typeof subject?.clay === "object" && subject.clay !== null) return "clay";
+  if (typeof subject?.clay === "object" && subject.clay !== null) {
+    const { src, sha256 } = Object(subject.clay.from);
+    // Without a file it begins with a shape; a file of the reader's own is not there yet.
+    if (src === undefined) return sha256 === undefined ? "clay" : null;
+    return ownPath(src, base) === null ? null : "clay";
+  }
   if (VOLUMES.includes(subject?.builtin)) return "subjects";
-  if (typeof subject?.src !== "string" || subject.builtin !== undefined || !URL.canParse(subject.src, base)) return null;
-  const { origin, pathname } = new URL(subject.src, base);
-  if (origin !== self.origin) return null;
+  const pathname = subject?.builtin === undefined ? ownPath(subject?.src, base) : null;
+  if (pathname === null) return null;
   if (/\.(nii|nii\.gz|nrrd|nhdr)$/i.test(pathname)) return "scans";
   return /\.(stl|ply|obj|gltf|glb)$/i.test(pathname) ? "meshes" : null;
 }

@@ -26,7 +26,7 @@ pub enum Role {
 pub enum Source {
     /// Made by the program, by name.
     Builtin(String),
-    /// Shaped by the program, stroke by stroke.
+    /// Shaped by the program, stroke by stroke; it may begin with a file.
     Clay(Arc<Clay>),
     /// A file. One without an address is supplied by the reader, who is asked for it by the author's name.
     File {
@@ -216,7 +216,7 @@ impl Want {
     pub fn name(&self) -> &str {
         match &self.source {
             Source::Builtin(name) | Source::File { name, .. } => name,
-            Source::Clay(_) => "clay",
+            Source::Clay(clay) => clay.file().map_or("clay", |mesh| &mesh.name),
         }
     }
 
@@ -231,7 +231,8 @@ impl Want {
     /// Address of the file, as written in the document; `None` without one.
     pub fn src(&self) -> Option<&str> {
         match &self.source {
-            Source::Builtin(_) | Source::Clay(_) => None,
+            Source::Builtin(_) => None,
+            Source::Clay(clay) => clay.file()?.src.as_deref(),
             Source::File { src, .. } => src.as_deref(),
         }
     }
@@ -239,9 +240,20 @@ impl Want {
     /// SHA-256 that the document gives.
     pub fn sha256(&self) -> Option<&str> {
         match &self.source {
-            Source::Builtin(_) | Source::Clay(_) => None,
+            Source::Builtin(_) => None,
+            Source::Clay(clay) => clay.file()?.sha256.as_deref(),
             Source::File { sha256, .. } => sha256.as_deref(),
         }
+    }
+
+    /// True if the reader has to supply its file: it has a hash and no address.
+    pub fn is_supplied(&self) -> bool {
+        self.src().is_none() && self.sha256().is_some()
+    }
+
+    /// True if it needs a file, at an address or from the reader.
+    pub fn has_file(&self) -> bool {
+        self.src().is_some() || self.is_supplied()
     }
 
     /// Accepts a file of this hash, lower-case hex.

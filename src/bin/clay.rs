@@ -13,6 +13,6 @@ fn main() {
 /// See [`clay::run`].
 #[cfg(target_arch = "wasm32")]
 #[wasm_bindgen]
-pub fn run(message: JsValue) -> Result<(), JsValue> {
-    clay::run(message)
+pub async fn run(message: JsValue) -> Result<(), JsValue> {
+    clay::run(message).await
 }

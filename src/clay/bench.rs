@@ -6,7 +6,8 @@ use std::hint::black_box;
 use glam::{DVec3, Vec3};
 use serde_json::{Value, json};
 
-use super::mesh::Vertex;
+use super::body::Space;
+use super::mesh::{ClayMesh, Vertex};
 use super::motion::{Motion, Step, is_in};
 use super::refine::Work;
 use super::shaping::{ClayError, Shaping};
@@ -215,8 +216,9 @@ impl Drag {
                 }
             }
         }
-        let start = Shaping::of(vertices, triangles, DETAIL)
+        let mesh = ClayMesh::new(vertices, triangles)
             .ok_or_else(|| ClayError::UnknownStart("sheet".to_owned()))?;
+        let start = Shaping::of(mesh, Space::default(), DETAIL);
         let coat = f64::from(radius);
         // 3 : 4 : 5, so that the way is one coating long.
         let to =

@@ -62,7 +62,8 @@ pub(super) struct ClayMesh {
     free_triangles: Vec<u32>,
 }
 
-fn next(half: u32) -> u32 {
+/// The half-edge that follows in a triangle.
+pub(super) fn next(half: u32) -> u32 {
     if half % 3 == 2 { half - 2 } else { half + 1 }
 }
 
@@ -81,14 +82,7 @@ impl ClayMesh {
         let count = vertices.len();
         vertices.shrink_to_fit();
         triangles.shrink_to_fit();
-        let mut mesh = Self {
-            vertices,
-            leaving: vec![NONE; count],
-            twins: vec![[NONE; 3]; triangles.len()],
-            triangles,
-            free_vertices: Vec::new(),
-            free_triangles: Vec::new(),
-        };
+        let mut mesh = Self::unjoined(vertices, triangles);
         // Half-edges by their ends, the lower one first: twins are then beside each other.
         let mut halves: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * mesh.triangles.len());
         for half in 0..3 * mesh.triangles.len() as u32 {
@@ -106,23 +100,81 @@ impl ClayMesh {
                 _ => return None,
             }
         }
-        let mut corners = vec![0_u32; count];
-        for half in 0..3 * mesh.triangles.len() as u32 {
-            let vertex = mesh.from(half);
-            corners[vertex as usize] += 1;
-            mesh.leaving[vertex as usize] = half;
+        mesh.with_fans()
+    }
+
+    /// A mesh whose half-edges are joined already, `twins` as the field: several edges may have the same two ends.
+    /// `None` if a vertex has several fans.
+    pub(super) fn joined(
+        vertices: Vec<Vertex>,
+        triangles: Vec<[u32; 3]>,
+        twins: Vec<[u32; 3]>,
+    ) -> Option<Self> {
+        let mut mesh = Self::unjoined(vertices, triangles);
+        mesh.twins = twins;
+        mesh.with_fans()
+    }
+
+    fn unjoined(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>) -> Self {
+        Self {
+            leaving: vec![NONE; vertices.len()],
+            vertices,
+            twins: vec![[NONE; 3]; triangles.len()],
+            triangles,
+            free_vertices: Vec::new(),
+            free_triangles: Vec::new(),
         }
-        for vertex in 0..count as u32 {
+    }
+
+    /// Finds a half-edge that leaves each vertex.
+    fn with_fans(mut self) -> Option<Self> {
+        let mut corners = vec![0_u32; self.vertices.len()];
+        for half in 0..3 * self.triangles.len() as u32 {
+            let vertex = self.from(half);
+            corners[vertex as usize] += 1;
+            self.leaving[vertex as usize] = half;
+        }
+        for vertex in 0..self.vertices.len() as u32 {
             if corners[vertex as usize] > 0 {
-                mesh.turn_to_border(vertex);
-                if mesh.fan(vertex).count() != corners[vertex as usize] as usize {
+                self.turn_to_border(vertex);
+                if self.fan(vertex).count() != corners[vertex as usize] as usize {
                     return None;
                 }
             } else {
-                mesh.free_vertices.push(vertex);
+                self.free_vertices.push(vertex);
             }
         }
-        Some(mesh)
+        Some(self)
+    }
+
+    /// Half-edges of edges whose two ends another edge has too: all but one edge of such, and none in a triangle of
+    /// another of them, so that all can be split.
+    pub(super) fn doubled(&self) -> Vec<u32> {
+        let halves = 0..3 * self.triangle_places();
+        let is_first = |half: &u32| {
+            let is_there = self.triangle(half / 3).is_some();
+            is_there && self.twin(*half).is_none_or(|twin| *half < twin)
+        };
+        let ends = |half: u32| {
+            let (from, to) = (self.from(half), self.to(half));
+            (from.min(to), from.max(to), half)
+        };
+        let mut edges: Vec<(u32, u32, u32)> = halves.filter(is_first).map(ends).collect();
+        edges.sort_unstable();
+        let mut is_used = vec![false; self.triangles.len()];
+        let mut doubled = Vec::new();
+        for edge in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            for (_, _, half) in &edge[1..] {
+                let sides = [Some(*half), self.twin(*half)].into_iter().flatten();
+                let used: Vec<usize> = sides.map(|side| (side / 3) as usize).collect();
+                if used.iter().all(|triangle| !is_used[*triangle]) {
+                    used.into_iter()
+                        .for_each(|triangle| is_used[triangle] = true);
+                    doubled.push(*half);
+                }
+            }
+        }
+        doubled
     }
 
     pub(super) fn from(&self, half: u32) -> u32 {
@@ -207,22 +259,57 @@ impl ClayMesh {
         }
     }
 
+    /// Number of edges that have one triangle alone.
+    pub(super) fn border_count(&self) -> usize {
+        let live = self.triangles.iter().zip(&self.twins);
+        let live = live.filter(|(corners, _)| corners[0] != NONE);
+        live.flat_map(|(_, twins)| twins)
+            .filter(|twin| **twin == NONE)
+            .count()
+    }
+
     /// True if an edge at the vertex has one triangle alone.
     pub(super) fn is_border(&self, vertex: u32) -> bool {
         self.twin(self.leaving[vertex as usize]).is_none()
     }
 
-    /// The half-edge from one vertex to another, if a triangle has it.
+    /// The half-edge from one vertex to another, if a triangle has it. It is looked for at both at once, so that one
+    /// with very many triangles, as files have them, costs no more than the other.
     pub(super) fn half(&self, from: u32, to: u32) -> Option<u32> {
-        if !self.is_vertex(from) {
-            return None;
+        let (mut leaving, mut coming) = (self.fan(from), self.fan(to));
+        loop {
+            let half = leaving.next()?;
+            if self.to(half) == to {
+                return Some(half);
+            }
+            let half = coming.next()?;
+            if self.across(half) == from {
+                return Some(previous(half));
+            }
         }
-        self.fan(from).find(|half| self.to(*half) == to)
+    }
+
+    /// Two vertices, the one with fewer triangles first.
+    fn smaller_first(&self, [a, b]: [u32; 2]) -> [u32; 2] {
+        let (mut of_a, mut of_b) = (self.fan(a), self.fan(b));
+        loop {
+            match (of_a.next(), of_b.next()) {
+                (Some(_), None) => return [b, a],
+                (Some(_), Some(_)) => {}
+                (None, _) => return [a, b],
+            }
+        }
     }
 
     /// The neighbours of a vertex that are not at a border, each once.
     pub(super) fn ring(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
         self.fan(vertex).map(|half| self.to(half))
+    }
+
+    /// Those of some vertices that lie at a border. What is done to triangles around any other need not look for its
+    /// border, through all of its triangles.
+    fn at_border<const N: usize>(&self, vertices: [u32; N]) -> [Option<u32>; N] {
+        vertices.map(|vertex| self.is_border(vertex).then_some(vertex))
     }
 
     /// Lets the half-edge that a border vertex keeps be the one along the border.
@@ -276,20 +363,21 @@ impl ClayMesh {
         let [a, b, c] = [self.from(half), self.to(half), self.across(half)];
         let [beyond_b, beyond_c] = [next(half), previous(half)].map(|h| self.twin_or_none(h));
         let other = self.twin(half);
+        let d = other.map_or(c, |other| self.across(other));
+        let border = self.at_border([a, b, c, d]);
         let m = self.new_vertex(vertex);
         let near = half / 3;
         let far = self.new_triangle();
         self.put(near, [a, m, c], [NONE, NONE, beyond_c]);
         self.put(far, [m, b, c], [NONE, beyond_b, 3 * near + 1]);
         if let Some(other) = other {
-            let d = self.across(other);
             let [beyond_a, beyond_d] = [next(other), previous(other)].map(|h| self.twin_or_none(h));
             let [here, there] = [other / 3, self.new_triangle()];
             self.put(here, [b, m, d], [3 * far, NONE, beyond_d]);
             self.put(there, [m, a, d], [3 * near, beyond_a, 3 * here + 1]);
-            self.turn_to_border(d);
         }
-        for vertex in [a, b, c, m] {
+        let at_border = border.into_iter().flatten();
+        for vertex in at_border.chain(other.is_none().then_some(m)) {
             self.turn_to_border(vertex);
         }
         m
@@ -311,9 +399,11 @@ impl ClayMesh {
             return false;
         }
         // A common neighbour beyond the two triangles would become an edge of four.
-        let common = self.ring(a).filter(|v| self.half(b, *v).is_some());
+        let [few, many] = self.smaller_first([a, b]);
+        let common = self.ring(few).filter(|v| self.half(many, *v).is_some());
         // Ends with three edges each leave two triangles back to back.
-        common.count() == 2 && self.fan(a).count() + self.fan(b).count() > 6
+        let edges = |end| self.fan(end).take(7).count();
+        common.count() == 2 && edges(a) + edges(b) > 6
     }
 
     /// Lets the ends of an edge become one vertex, which takes the place of the first; for what [`Self::may_collapse`].
@@ -325,7 +415,7 @@ impl ClayMesh {
         }
         for side in [Some(half), self.twin(half)].into_iter().flatten() {
             let [one, two] = [next(side), previous(side)].map(|h| self.twin_or_none(h));
-            let c = self.across(side);
+            let border = self.at_border([self.across(side)]);
             self.triangles[(side / 3) as usize] = [NONE; 3];
             self.free_triangles.push(side / 3);
             self.join(one, two);
@@ -334,7 +424,9 @@ impl ClayMesh {
                 let start = self.from(inner);
                 self.leaving[start as usize] = inner;
             }
-            self.turn_to_border(c);
+            for c in border.into_iter().flatten() {
+                self.turn_to_border(c);
+            }
         }
         self.leaving[b as usize] = NONE;
         self.free_vertices.push(b);
@@ -359,9 +451,10 @@ impl ClayMesh {
         let [beyond_bc, beyond_ca] = [next(half), previous(half)].map(|h| self.twin_or_none(h));
         let [beyond_ad, beyond_db] = [next(other), previous(other)].map(|h| self.twin_or_none(h));
         let [one, two] = [half / 3, other / 3];
+        let border = self.at_border([a, b, c, d]);
         self.put(one, [c, d, b], [NONE, beyond_db, beyond_bc]);
         self.put(two, [d, c, a], [3 * one, beyond_ca, beyond_ad]);
-        for vertex in [a, b, c, d] {
+        for vertex in border.into_iter().flatten() {
             self.turn_to_border(vertex);
         }
         Some(3 * one)

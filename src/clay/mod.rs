@@ -5,21 +5,24 @@ mod bench;
 mod body;
 mod check;
 mod field;
+mod mend;
 mod mesh;
 mod motion;
 mod refine;
 mod shaping;
 mod smooth;
 mod start;
+mod start_of_file;
 mod way;
 mod write;
 
 pub use bench::{ClayBench, bench_clay};
-pub use body::{SEGMENT, box_mm};
+pub use body::{SEGMENT, Space};
 pub use check::{Check, LastStroke, MAX_CROSSING, mesh_sha256};
 pub use motion::LeftOut;
 pub use refine::{MAX_TRIANGLES, Work};
 pub use shaping::{ClayError, Shaped, Shaping};
+pub use start_of_file::{MAX_FILE_TRIANGLES, MAX_START_TRIANGLES};
 pub use way::Way;
 pub use write::{Export, Form};
 

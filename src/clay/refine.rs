@@ -132,7 +132,7 @@ fn must_collapse(a: &Vertex, b: &Vertex, detail: f64) -> bool {
 }
 
 /// Twice the area of a triangle, along its normal.
-fn area_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+pub(super) fn area_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
@@ -281,7 +281,7 @@ impl Stepping<'_> {
     }
 
     /// Lets the ends of short edges become one, shortest first, until none is left that may.
-    fn collapse_short(&mut self, carry: &impl Carry) {
+    pub(super) fn collapse_short(&mut self, carry: &impl Carry) {
         let mut queue = BinaryHeap::new();
         for vertex in self.moving() {
             for half in self.mesh.fan(vertex) {
@@ -309,7 +309,7 @@ impl Stepping<'_> {
     }
 
     /// Collapses an edge, if that leaves the surface whole, its normals within 60° and no edge to be split.
-    fn collapse(&mut self, half: u32, carry: &impl Carry) -> Option<u32> {
+    pub(super) fn collapse(&mut self, half: u32, carry: &impl Carry) -> Option<u32> {
         let ends = [self.mesh.from(half), self.mesh.to(half)];
         if !self.mesh.may_collapse(half) {
             return None;

@@ -5,11 +5,13 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
+use super::body::Space;
 use super::mesh::{ClayMesh, Vertex, lengthen, taken};
 use super::motion::{LeftOut, Motion, Step, around, is_in};
 use super::refine::{Carry, MAX_TRIANGLES, Stepping, Work};
 use super::smooth;
 use super::start;
+use super::start_of_file::{MAX_FILE_TRIANGLES, MAX_START_TRIANGLES};
 use crate::document::{Clay, ClayStart};
 
 /// Steps whose reach is looked at together, and blocks of them.
@@ -26,6 +28,24 @@ pub enum ClayError {
     /// Its start is of a kind that this version does not know.
     #[error("this version makes no clay from \"{0}\"")]
     UnknownStart(String),
+    /// Its file has not been read.
+    #[error("the clay's file is not there")]
+    NoFile,
+    /// Its file has more triangles than are looked at.
+    #[error(
+        "a clay is made of at most {MAX_FILE_TRIANGLES} triangles of a file, and there are {0}"
+    )]
+    ManyTriangles(usize),
+    /// The triangles of its file do not become few enough.
+    #[error(
+        "a clay begins with at most {MAX_START_TRIANGLES} triangles; of the file's {found} no fewer than {left} describe its shape"
+    )]
+    Irreducible {
+        /// Triangles of the file.
+        found: usize,
+        /// Those that are left.
+        left: usize,
+    },
     /// It cannot be drawn.
     #[error("{0}")]
     NoSurface(String),
@@ -37,18 +57,21 @@ pub enum ClayError {
 /// A clay that is being shaped.
 #[derive(Clone, Debug)]
 pub struct Shaping {
-    mesh: ClayMesh,
+    pub(super) mesh: ClayMesh,
     after: Vec<Vertex>,
     moved_in: Vec<u32>,
+    space: Space,
     /// Number of the step, over all strokes.
     number: u32,
-    detail: f64,
+    pub(super) detail: f64,
     /// The vertices that the last stroke moved.
     touched: Vec<bool>,
     /// Strokes that did nothing, and why.
     left_out: Vec<(usize, LeftOut)>,
     /// The stroke since which there were too many triangles to split edges.
     full_since: Option<usize>,
+    /// What was done to the file that it was made of, in words.
+    pub(super) start_notices: Vec<String>,
     done: usize,
     work: Work,
 }
@@ -82,19 +105,20 @@ struct Candidates {
 }
 
 impl Shaping {
-    /// The starting shape of a clay.
+    /// The built-in starting shape of a clay; what begins with a file is made by [`Shaping::of_mesh`].
     ///
     /// # Errors
-    /// If this version does not know it.
+    /// If this version does not know it, or it is a file.
     pub fn new(clay: &Clay) -> Result<Self, ClayError> {
         let shape = match &clay.from {
             ClayStart::Shape(shape) => *shape,
-            ClayStart::Mesh(_) => return Err(ClayError::UnknownStart("src".to_owned())),
+            ClayStart::Mesh(_) => return Err(ClayError::NoFile),
             ClayStart::Unknown(name) => return Err(ClayError::UnknownStart(name.clone())),
         };
         let (vertices, triangles) = start::shape(shape, clay.detail);
         // The built-in shapes are closed surfaces, which a test holds.
-        let mut shaping = Self::of(vertices, triangles, clay.detail)
+        let mut shaping = ClayMesh::new(vertices, triangles)
+            .map(|mesh| Self::of(mesh, Space::default(), clay.detail))
             .ok_or_else(|| ClayError::UnknownStart("shape".to_owned()))?;
         if clay.detail >= start::FINEST {
             shaping.settle();
@@ -102,21 +126,22 @@ impl Shaping {
         Ok(shaping)
     }
 
-    /// A clay of these triangles; `None` if they are no surface.
-    pub(super) fn of(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>, detail: f64) -> Option<Self> {
-        let mesh = ClayMesh::new(vertices, triangles)?;
-        Some(Self {
+    /// A clay of this mesh, which no stroke has touched.
+    pub(super) fn of(mesh: ClayMesh, space: Space, detail: f64) -> Self {
+        Self {
             after: mesh.vertices.clone(),
             moved_in: vec![0; mesh.vertices.len()],
             touched: vec![false; mesh.vertices.len()],
             mesh,
+            space,
             number: 0,
             detail,
             left_out: Vec::new(),
             full_since: None,
+            start_notices: Vec::new(),
             done: 0,
             work: Work::default(),
-        })
+        }
     }
 
     /// Looks after all edges until nothing changes, so that a stroke that only carries them leaves them alone.
@@ -149,7 +174,7 @@ impl Shaping {
         }
     }
 
-    fn stepping(&mut self) -> Stepping<'_> {
+    pub(super) fn stepping(&mut self) -> Stepping<'_> {
         self.number += 1;
         Stepping {
             mesh: &mut self.mesh,
@@ -442,9 +467,9 @@ impl Shaping {
         self.full_since
     }
 
-    /// What was left out and what was met, in words: strokes by their numbers, from 1.
+    /// What was done to a file, what was left out and what was met, in words: strokes by their numbers, from 1.
     pub fn notices(&self) -> Vec<String> {
-        let mut lines = Vec::new();
+        let mut lines = self.start_notices.clone();
         for (index, why) in self.left_out.iter().take(MOST_NOTICES) {
             lines.push(format!("stroke {} is left out: {why}", index + 1));
         }
@@ -470,6 +495,7 @@ impl Shaping {
             triangles,
             touched: kept.iter().map(is_touched).collect(),
             detail: self.detail,
+            space: self.space,
         }
     }
 }
@@ -487,4 +513,6 @@ pub struct Shaped {
     pub touched: Vec<bool>,
     /// The longest that a stroke leaves an edge, the clay's space.
     pub detail: f64,
+    /// Where the clay's space lies.
+    pub space: Space,
 }

@@ -52,7 +52,7 @@ pub(super) fn smoothed(
 }
 
 /// The sum of the normals of the triangles at a vertex, each by its angle there.
-fn normal_by_angle(mesh: &ClayMesh, vertex: u32) -> DVec3 {
+pub(super) fn normal_by_angle(mesh: &ClayMesh, vertex: u32) -> DVec3 {
     let at = |v: u32| mesh.vertices[v as usize].pos();
     let pos = at(vertex);
     let mut sum = DVec3::ZERO;

@@ -3,11 +3,12 @@
 use glam::{DVec3, Vec3};
 
 use super::check::Check;
+use super::mesh::{ClayMesh, Vertex};
 use super::refine::MAX_TRIANGLES;
 use super::shaping::{ClayError, Shaped, Shaping};
 use super::suite::{ball, clay, key, place, stroke, suite};
 use super::way::Way;
-use super::{LeftOut, mesh::Vertex};
+use super::{LeftOut, Space};
 use crate::data::mesh::testing::cube;
 use crate::displace::ToolShape;
 use crate::document::{Clay, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool};
@@ -288,7 +289,8 @@ fn a_tool_pressed_into_one_huge_triangle_shapes_it() {
         clay(ClayShape::Cube, &[ball(0.06, 0.06)]),
         vec![stroke(&[[200, -200, 650], [200, -200, 450]].map(place))],
     );
-    let mut shaping = Shaping::of(vertices, triangles, clay.detail).unwrap();
+    let mesh = ClayMesh::new(vertices, triangles).unwrap();
+    let mut shaping = Shaping::of(mesh, Space::default(), clay.detail);
     shaping.stroke(&clay, &mut |_| true).unwrap();
     let shaped = shaping.shaped();
     let check = Check::of_clay(&shaped);

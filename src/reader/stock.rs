@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::assets::{Assets, Bending, Data, LoadEvent, Role, Source, TissueWork, Want, Wanted};
+use crate::assets::{Assets, Bending, Data, LoadEvent, Role, TissueWork, Want, Wanted};
 use crate::data::{Plate, Resources, Subject, SubjectBuilder, SubjectSink as _};
 use crate::document::{Illustration, Recipe, SegmentsRef, SubjectRef};
 use crate::load::{FieldFile, LabelFile};
@@ -24,7 +24,7 @@ impl StockKey {
     /// The key of an illustration whose relative addresses start from `base`, for the picture of this number.
     pub fn new(illustration: &Illustration, base: &str, picture: u32) -> Self {
         let is_clay = matches!(illustration.subject, SubjectRef::Clay(_));
-        let has_addresses = !illustration.subject.is_made() || !illustration.segments.is_empty();
+        let has_addresses = illustration.subject.has_file() || !illustration.segments.is_empty();
         Self {
             subject: illustration.subject.clone(),
             segments: illustration.segments.clone(),
@@ -224,9 +224,7 @@ impl Stock {
     /// True if everything can be had again: nothing of it is a file that only the reader has.
     pub fn can_come_again(&self) -> bool {
         let wanted = Wanted::of(&self.illustration).0;
-        !wanted
-            .iter()
-            .any(|want| matches!(want.source, Source::File { src: None, .. }))
+        !wanted.iter().any(Want::is_supplied)
     }
 
     /// What is wrong, the newest last.

@@ -6,7 +6,7 @@ use web_sys::{Blob, Url};
 
 use super::worker::task::{Part, ScanTask, Task};
 use crate::assets::{Role, Want};
-use crate::document::{Document, SubjectRef};
+use crate::document::{Document, SubjectRef, clay_to_text};
 
 /// The host of an absolute address, if it is another one than the page's: nothing is fetched from there unasked.
 pub(super) fn foreign_host(address: &str) -> Option<String> {
@@ -16,17 +16,20 @@ pub(super) fn foreign_host(address: &str) -> Option<String> {
     (!is_own).then(|| url.host())
 }
 
-/// The part that makes or reads a document's subject: the makers for a built-in one, readers for one at the
-/// page's own host; `base` is what relative addresses start from. None if the reader is to be asked first.
+/// The part that makes or reads a document's subject: the makers for a built-in one, readers for one at the page's own
+/// host, the shaper for a clay that begins with no file or with one there; `base` is what relative addresses start from.
+/// None if the reader is to be asked first.
 pub(super) fn part_of(document: &Document, base: &str) -> Option<Part> {
     match &document.illustration().subject {
         SubjectRef::Builtin { name } => Some(Task::Subject(name.clone(), None).part()),
-        SubjectRef::Clay(_) => Some(Part::Clay),
+        SubjectRef::Clay(clay) if clay.file().is_none() => Some(Part::Clay),
         subject => {
             let address = absolute(subject.src()?, base).ok()?;
-            foreign_host(&address)
-                .is_none()
-                .then(|| Part::of_address(&address))
+            let part = || match subject {
+                SubjectRef::Clay(_) => Part::Clay,
+                _ => Part::of_address(&address),
+            };
+            foreign_host(&address).is_none().then(part)
         }
     }
 }
@@ -71,11 +74,20 @@ pub(super) fn builtin_task(name: &str, want: &Want) -> Task {
 
 /// The task to fetch an address and to read the bytes that come.
 pub(super) fn address_task(address: String, want: &Want) -> Task {
-    Task::Scan(ScanTask::Address {
+    let task = ScanTask::Address {
         address,
         are_segments: want.role == Role::Segments,
         reading: want.reading.clone(),
-    })
+    };
+    file_task(want, task)
+}
+
+/// The task for a want whose file is read by this one: a clay begins with it.
+pub(super) fn file_task(want: &Want, task: ScanTask) -> Task {
+    match want.clay() {
+        Some(clay) => Task::Clay(clay_to_text(clay), Some(task)),
+        None => Task::Scan(task),
+    }
 }
 
 /// What lies at an address; `None` if it cannot be had.

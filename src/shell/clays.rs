@@ -2,14 +2,20 @@
 
 use std::sync::Arc;
 
-use super::loading::{Post, PostingSink};
-use crate::assets::LoadEvent;
-use crate::clay::{ClayError, Shaping, box_mm};
-use crate::data::{SubjectPart, SubjectSink, Surface, SurfaceError};
-use crate::document::Clay;
+use super::loading::{Post, PostingSink, hash_of};
+use crate::assets::{LoadEvent, Want};
+use crate::clay::{ClayError, MAX_FILE_TRIANGLES, Shaping};
+use crate::data::{Mesh, SubjectPart, SubjectSink, Surface, SurfaceError};
+use crate::document::{Clay, MeshReading, SubjectRef};
+use crate::load::{
+    Aside, FileSet, LoadError, LoadReport, MeshOptions, MeshReport, Warning, read_mesh,
+};
+use crate::math::hex;
 
 /// Part of the work that is done when all strokes are.
 const STROKES: f32 = 0.8;
+/// Part of beginning with a file that is done when the file is read.
+const READING: f32 = 0.5;
 
 /// Bytes of earlier states that are kept at most, and strokes that they are of.
 const MOST_KEPT: usize = 64 << 20;
@@ -18,12 +24,93 @@ const LAST_STROKES: usize = 50;
 /// Shapes clays, and keeps what the last strokes left, so that another last stroke, or one less, does not begin anew.
 #[derive(Debug, Default)]
 pub struct ClayDesk {
+    /// What the last one begins with, if that is a file.
+    start: Option<FileStart>,
     last: Option<Arc<Clay>>,
     /// The clay of `last` after some of its strokes, the latest last.
     kept: Vec<Shaping>,
 }
 
+/// A file that was read, and the clay of it that no stroke has touched.
+#[derive(Debug)]
+struct FileStart {
+    sha256: [u8; 32],
+    reading: MeshReading,
+    shaping: Shaping,
+    detail: f64,
+}
+
+impl FileStart {
+    /// True if a clay begins with this, should its file be the same.
+    fn is_of(&self, clay: &Clay) -> bool {
+        let is_read_so = |reading| self.reading == reading && self.detail == clay.detail;
+        clay.file().is_some_and(|mesh| is_read_so(mesh.reading))
+    }
+}
+
 impl ClayDesk {
+    /// Reads the file that a clay begins with, unless that is here already: the same address may lead to another file
+    /// by now, so that its bytes tell, or the hash that the document gives. The report gets the hash.
+    ///
+    /// # Errors
+    /// [`LoadError`] if it is no mesh, or none that a clay can be made of; also where `go_on` stops it.
+    pub fn begin(
+        &mut self,
+        clay: &Clay,
+        (files, name): (&mut dyn FileSet, &str),
+        report: &mut LoadReport,
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Result<(), LoadError> {
+        if let Some(start) = self.start.as_ref().filter(|start| start.is_of(clay)) {
+            let given = clay.file().and_then(|mesh| mesh.sha256.clone());
+            let wanted = given.or_else(|| hash_of(files, name));
+            if wanted.is_some_and(|wanted| wanted.eq_ignore_ascii_case(&hex(&start.sha256))) {
+                report.sha256 = Some(start.sha256);
+                return Ok(());
+            }
+        }
+        // Strokes on another start are no strokes on this one, though its address may be the same.
+        *self = Self::default();
+        let reading = clay.file().map(|mesh| mesh.reading).unwrap_or_default();
+        let options = MeshOptions {
+            max_triangles: MAX_FILE_TRIANGLES as u64,
+            ..MeshOptions::from(&reading)
+        };
+        let (mesh, found) = read_mesh(files, name, &options, &mut |part| go_on(READING * part))?;
+        report.sha256 = Some(found.sha256);
+        warn(&mesh, &found, report);
+        let shaping = Shaping::of_mesh(clay, &mesh, &mut |part| {
+            go_on(READING + (1.0 - READING) * part)
+        });
+        let shaping = shaping.map_err(|error| match error {
+            ClayError::Stopped => LoadError::Cancelled,
+            other => LoadError::Mesh {
+                message: format!("{other} ({name})"),
+            },
+        })?;
+        self.start = Some(FileStart {
+            sha256: found.sha256,
+            reading,
+            shaping,
+            detail: clay.detail,
+        });
+        Ok(())
+    }
+
+    /// A clay that no stroke has touched.
+    fn untouched(&self, clay: &Clay) -> Result<Shaping, ClayError> {
+        match &self.start {
+            Some(start) if start.is_of(clay) => Ok(start.shaping.clone()),
+            _ => Shaping::new(clay),
+        }
+    }
+
+    /// The hash of the file that a clay begins with, if that was read.
+    fn sha256_of(&self, clay: &Clay) -> Option<String> {
+        let start = self.start.as_ref().filter(|start| start.is_of(clay))?;
+        Some(hex(&start.sha256))
+    }
+
     /// The clay as its recipe has it. `go_on` hears how far it is, 0 to 1, and stops it by `false`.
     ///
     /// # Errors
@@ -43,7 +130,7 @@ impl ClayDesk {
         let all = clay.strokes.len();
         let mut shaping = match self.kept.last() {
             Some(kept) => kept.clone(),
-            None => Shaping::new(clay)?,
+            None => self.untouched(clay)?,
         };
         self.keep(&shaping, all);
         while shaping.done() < all {
@@ -72,6 +159,24 @@ impl ClayDesk {
     }
 }
 
+/// Says what of a file was repaired, and what a clay has no use for.
+fn warn(mesh: &Mesh, found: &MeshReport, report: &mut LoadReport) {
+    let mut say = |what: String| report.warn(Warning::Mesh { what });
+    let repaired = found.repair.phrases().join(", ");
+    if !repaired.is_empty() {
+        say(format!("the mesh was repaired: {repaired}"));
+    }
+    let is_colored = mesh.colors.is_some()
+        || !mesh.textures.is_empty()
+        || mesh.materials.iter().any(|material| material.has_color);
+    if is_colored || found.aside.iter().any(Aside::is_of_colors) {
+        say("the colours and textures of the file are left aside: a clay has none".to_owned());
+    }
+    for aside in found.aside.iter().filter(|aside| !aside.is_of_colors()) {
+        say(aside.to_string());
+    }
+}
+
 /// Shapes a clay and prepares it to be drawn.
 ///
 /// # Errors
@@ -82,8 +187,10 @@ pub fn surface_of_clay(
     go_on: &mut dyn FnMut(f32) -> bool,
 ) -> Result<(Arc<Surface>, Vec<String>), ClayError> {
     let shaping = desk.shape(clay, &mut |part| go_on(STROKES * part))?;
-    let mesh = shaping.shaped().mesh();
-    let surface = Surface::of(&[(&mesh, None)], Some(box_mm()), &mut |part| {
+    let shaped = shaping.shaped();
+    let mesh = shaped.mesh();
+    let within = Some(shaped.space.box_mm());
+    let surface = Surface::of(&[(&mesh, None)], within, &mut |part| {
         go_on(STROKES + (1.0 - STROKES) * part)
     });
     match surface {
@@ -91,6 +198,30 @@ pub fn surface_of_clay(
         Err(SurfaceError::Stopped) => Err(ClayError::Stopped),
         Err(why) => Err(ClayError::NoSurface(why.to_string())),
     }
+}
+
+/// As [`make_clay`], of a clay that begins with a file. One of another hash than the document gives is not shaped: its
+/// own, with which the load ends, tells.
+pub fn make_clay_of_file(
+    desk: &mut ClayDesk,
+    clay: &Arc<Clay>,
+    file: (&mut dyn FileSet, &str),
+    post: &mut dyn Post,
+) {
+    let mut sink = PostingSink::new(post);
+    let mut report = LoadReport::default();
+    let begun = desk.begin(clay, file, &mut report, &mut |part| sink.progress(part));
+    let want = Want::subject(&SubjectRef::Clay(Arc::clone(clay)));
+    let is_it = report
+        .sha256_hex()
+        .is_none_or(|hash| want.check(&hash).is_ok());
+    if begun.is_err() || !is_it {
+        return sink.end(begun, &report, None);
+    }
+    for warning in &report.warnings {
+        post.post(LoadEvent::Notice(warning.to_string()));
+    }
+    make_clay(desk, clay, post);
 }
 
 /// Shapes a clay and posts it, what there is to say, and how it ended.
@@ -107,7 +238,9 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
             for notice in notices {
                 post.post(LoadEvent::Notice(notice));
             }
-            LoadEvent::Done { sha256: None }
+            LoadEvent::Done {
+                sha256: desk.sha256_of(clay),
+            }
         }
         Err(ClayError::Stopped) => LoadEvent::Cancelled,
         Err(error) => LoadEvent::Failed {
@@ -122,7 +255,8 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{ClayTool, Document, SubjectRef};
+    use crate::document::{ClayTool, Document};
+    use crate::load::MemoryFiles;
 
     const PULLED: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05, "tools": [{ "radius": 0.1 }],
         "strokes": [{ "path": [0, 0, 440, 0, 0, 300] }, { "path": [440, 0, 0, 200, 0, 0] }] } } }"#;
@@ -252,5 +386,151 @@ mod tests {
         assert_eq!(start.mm_per_unit, end.mm_per_unit);
         assert!(start.middle_mm.distance(end.middle_mm) < 1e-9);
         assert!(end.bounds.max.z > start.bounds.max.z + 0.2);
+    }
+
+    /// A tetrahedron of this size, mm.
+    fn tetrahedron(size: u32) -> Vec<u8> {
+        let corners = "v 0 0 0\nv S 0 0\nv 0 S 0\nv 0 0 S\n".replace('S', &size.to_string());
+        format!("{corners}f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n").into_bytes()
+    }
+
+    /// The sharp end of the tetrahedron is pulled out; `from` is what is said of its file.
+    fn of_file(from: &str) -> Arc<Clay> {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "from": { FROM, "axes": "ras" }, "detail": 0.1,
+            "tools": [{ "radius": 0.2 }], "strokes": [{ "path": [-500, -500, 500, 0, 0, 200] }] } } }"#;
+        let document = Document::from_json(&text.replace("FROM", from)).unwrap();
+        match &document.illustration().subject {
+            SubjectRef::Clay(clay) => Arc::clone(clay),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn make(desk: &mut ClayDesk, clay: &Arc<Clay>, file: Vec<u8>) -> Vec<LoadEvent> {
+        let mut files = MemoryFiles::new([("a.obj", file)]);
+        let mut events = Vec::new();
+        make_clay_of_file(
+            desk,
+            clay,
+            (&mut files, "a.obj"),
+            &mut |event: LoadEvent| {
+                events.push(event);
+                true
+            },
+        );
+        events
+    }
+
+    fn surface(events: &[LoadEvent]) -> Option<&Surface> {
+        events.iter().find_map(|event| match event {
+            LoadEvent::Part(SubjectPart::Surface(surface)) => Some(&**surface),
+            _ => None,
+        })
+    }
+
+    fn hash(file: &[u8]) -> String {
+        use sha2::Digest as _;
+        hex(&sha2::Sha256::digest(file))
+    }
+
+    #[test]
+    fn a_clay_of_a_file_is_in_its_millimetres() {
+        let file = tetrahedron(30);
+        let mut desk = ClayDesk::default();
+        let clay = of_file(r#""src": "a.obj""#);
+        let events = make(&mut desk, &clay, file.clone());
+        let made = surface(&events).expect("a surface");
+        assert_eq!(made.frame.mm_per_unit, 30.0);
+        assert!(made.frame.middle_mm.distance(glam::DVec3::splat(15.0)) < 1e-9);
+        assert!(made.frame.bounds.max.z > 0.6, "it is pulled");
+        let Some(LoadEvent::Done {
+            sha256: Some(found),
+        }) = events.last()
+        else {
+            panic!("{:?}", events.last())
+        };
+        assert_eq!(*found, hash(&file));
+        // The same bytes are not read again; others at the same address are.
+        let reads = |events: &[LoadEvent]| {
+            let is_reading = |event: &LoadEvent| matches!(event, LoadEvent::Progress { what, .. } if what == "Reading");
+            events.iter().any(is_reading)
+        };
+        assert!(reads(&events));
+        let again = make(&mut desk, &clay.cut(0), file.clone());
+        assert!(!reads(&again));
+        assert!(surface(&again).expect("a surface").frame.bounds.max.z < 0.501);
+        assert!(!reads(&make(&mut desk, &clay, file)));
+        let larger = make(&mut desk, &clay, tetrahedron(60));
+        assert!(reads(&larger));
+        assert_eq!(surface(&larger).expect("a surface").frame.mm_per_unit, 60.0);
+        let mut other_units = Clay::clone(&of_file(r#""src": "a.obj", "units": "cm""#));
+        other_units.detail = 0.05;
+        let coarse = make(&mut desk, &Arc::new(other_units), tetrahedron(60));
+        assert_eq!(
+            surface(&coarse).expect("a surface").frame.mm_per_unit,
+            600.0
+        );
+    }
+
+    #[test]
+    fn the_wrong_file_is_not_shaped_and_its_hash_tells() {
+        let (right, wrong) = (tetrahedron(30), tetrahedron(40));
+        let clay = of_file(&format!(r#""sha256": "{}""#, hash(&right)));
+        let mut desk = ClayDesk::default();
+        let events = make(&mut desk, &clay, wrong.clone());
+        assert!(surface(&events).is_none());
+        assert!(
+            matches!(events.last(), Some(LoadEvent::Done { sha256: Some(found) }) if *found == hash(&wrong)),
+            "{:?}",
+            events.last()
+        );
+        assert!(surface(&make(&mut desk, &clay, right)).is_some());
+        // Nothing is said of a file that nobody has read.
+        let lost = ClayDesk::default().shape(&clay, &mut |_| true).unwrap_err();
+        assert_eq!(lost, ClayError::NoFile);
+    }
+
+    #[test]
+    fn what_is_no_mesh_fails_in_words_and_colours_are_named() {
+        let clay = of_file(r#""src": "a.obj""#);
+        for (file, part) in [
+            (&b"P3 2 2 255"[..], "a.obj"),
+            (b"v 0 0 0\nv 1 0 0\n", "there is no triangle"),
+            (b"v 0 0 0\nv 1 0 0\nf 1 2 9\n", "line 3"),
+        ] {
+            let events = make(&mut ClayDesk::default(), &clay, file.to_vec());
+            let Some(LoadEvent::Failed { message, .. }) = events.last() else {
+                panic!("{:?}", events.last())
+            };
+            assert!(message.contains(part), "{message}");
+            assert!(surface(&events).is_none());
+        }
+        let colored = String::from_utf8(tetrahedron(30)).unwrap();
+        let colored = colored.replacen("v 0 0 0", "mtllib gone.mtl\nv 0 0 0 1 0 0", 1);
+        let events = make(&mut ClayDesk::default(), &clay, colored.into_bytes());
+        let notices = events.iter().filter_map(|event| match event {
+            LoadEvent::Notice(text) => Some(text.as_str()),
+            _ => None,
+        });
+        let notices: Vec<&str> = notices.collect();
+        assert!(
+            matches!(notices[..], [one] if one.contains("colours")),
+            "{notices:?}"
+        );
+        let mut stopped = Vec::new();
+        let mut files = MemoryFiles::new([("a.obj", tetrahedron(30))]);
+        let file: (&mut dyn FileSet, &str) = (&mut files, "a.obj");
+        make_clay_of_file(
+            &mut ClayDesk::default(),
+            &clay,
+            file,
+            &mut |event: LoadEvent| {
+                stopped.push(event);
+                false
+            },
+        );
+        assert!(
+            matches!(stopped.last(), Some(LoadEvent::Cancelled)),
+            "{stopped:?}"
+        );
     }
 }

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use super::bending::{Desk, make_figure};
-use super::clays::{ClayDesk, make_clay};
+use super::clays::{ClayDesk, make_clay, make_clay_of_file};
 use super::command_line::ReadingFlags;
 use super::figures::read_file;
 use super::files::{Folder, Picked, local, mesh_set};
@@ -274,10 +274,7 @@ impl NativeServices {
         };
         std::thread::spawn(move || {
             let mut post = |event: LoadEvent| {
-                if let LoadEvent::Done { sha256: Some(hash) } = &event {
-                    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
-                    known.insert(hash.clone(), path.clone());
-                }
+                remember(&known, &path, &event);
                 post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
             };
             if reading.meshes.is_empty() {
@@ -329,19 +326,29 @@ impl NativeServices {
         ticket
     }
 
-    /// Shapes a clay in a thread. One that nobody wants any more lets the desk go at its next step.
-    fn start_clay(&mut self, clay: Arc<Clay>) -> Ticket {
+    /// Shapes a clay in a thread; `file` is what it begins with, if that is a file. One that nobody wants any more lets
+    /// the desk go at its next step.
+    fn start_clay(&mut self, clay: Arc<Clay>, file: Option<PathBuf>) -> Ticket {
         let (ticket, is_wanted) = self.new_ticket();
         let (sender, ctx, desk) = (
             self.sender.clone(),
             self.ctx.clone(),
             Arc::clone(&self.clays),
         );
+        let known = Arc::clone(&self.known);
         std::thread::spawn(move || {
-            let mut post =
-                |event: LoadEvent| post_while_wanted(&sender, &ctx, ticket, &is_wanted, event);
+            let mut post = |event: LoadEvent| {
+                file.iter().for_each(|path| remember(&known, path, &event));
+                post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
+            };
             let mut desk = desk.lock().unwrap_or_else(PoisonError::into_inner);
-            make_clay(&mut desk, &clay, &mut post);
+            match &file {
+                None => make_clay(&mut desk, &clay, &mut post),
+                Some(path) => {
+                    let (mut folder, name) = Folder::of(path);
+                    make_clay_of_file(&mut desk, &clay, (&mut folder, &name), &mut post);
+                }
+            }
         });
         ticket
     }
@@ -415,10 +422,7 @@ impl NativeServices {
                 return;
             };
             let mut post = |event: LoadEvent| {
-                if let LoadEvent::Done { sha256: Some(hash) } = &event {
-                    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
-                    known.insert(hash.clone(), path.clone());
-                }
+                remember(&known, &path, &event);
                 post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
             };
             if let Some(name) = mesh {
@@ -428,6 +432,14 @@ impl NativeServices {
             read_file(&mut folder, &name, limits, &reading, &mut post);
         });
         ticket
+    }
+}
+
+/// Keeps where a file lies that has been read to its end, by its hash.
+fn remember(known: &Mutex<BTreeMap<String, PathBuf>>, path: &Path, event: &LoadEvent) {
+    if let LoadEvent::Done { sha256: Some(hash) } = event {
+        let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+        known.insert(hash.clone(), path.to_owned());
     }
 }
 
@@ -609,14 +621,16 @@ impl Services for NativeServices {
     }
 
     fn load(&mut self, want: &Want) -> Ticket {
-        let (src, name) = match &want.source {
+        match &want.source {
             Source::Builtin(name) => return self.start_builtin(name.clone(), want),
-            Source::Clay(clay) => return self.start_clay(Arc::clone(clay)),
-            Source::File { src, name, .. } => (src.clone(), name),
-        };
+            Source::Clay(clay) if !want.has_file() => {
+                return self.start_clay(Arc::clone(clay), None);
+            }
+            Source::Clay(_) | Source::File { .. } => {}
+        }
         // A file is read where the document says that it is, even if the same bytes were opened before.
-        let path = match src {
-            Some(src) => match (local(&self.folder, &src), want.role) {
+        let path = match want.src() {
+            Some(src) => match (local(&self.folder, src), want.role) {
                 (Some(path), _) => path,
                 (None, Role::Subject) => {
                     return self.fail(format!(
@@ -631,12 +645,13 @@ impl Services for NativeServices {
             },
             None => match self.known_file(want) {
                 Some(path) => path,
-                None => return self.fail(wanted_file(name)),
+                None => return self.fail(wanted_file(want.name())),
             },
         };
-        match want.role {
-            Role::Segments => self.start_segments(path),
-            _ => self.start_file(path, true, want.reading.clone()),
+        match (want.role, want.clay()) {
+            (Role::Segments, _) => self.start_segments(path),
+            (_, Some(clay)) => self.start_clay(Arc::clone(clay), Some(path)),
+            (_, None) => self.start_file(path, true, want.reading.clone()),
         }
     }
 

@@ -8,7 +8,9 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storage, Url, Window};
 
-use super::address::{absolute, address_task, at_base, builtin_task, fetched, foreign_host};
+use super::address::{
+    absolute, address_task, at_base, builtin_task, fetched, file_task, foreign_host,
+};
 use super::loading::wanted_file;
 use super::texts::{self, Texts};
 use super::worker::answer::Answer;
@@ -300,7 +302,8 @@ impl PageServices {
                 ticket
             };
             let labels = services.0.borrow().labels.clone();
-            services.start(ticket, &scan_task(files, Reading::default(), labels));
+            let task = scan_task(files, Reading::default(), labels);
+            services.start(ticket, &Task::Scan(task));
         });
     }
 }
@@ -325,13 +328,13 @@ fn scan_task(
     files: Vec<(String, Blob)>,
     reading: Reading,
     segmentations: SegmentationsExpected,
-) -> Task {
-    Task::Scan(ScanTask::Files {
+) -> ScanTask {
+    ScanTask::Files {
         files,
         reading,
         segmentations,
         may_be_field: false,
-    })
+    }
 }
 
 fn not_started(error: &JsValue) -> LoadEvent {
@@ -452,29 +455,29 @@ impl Services for PageServices {
     }
 
     fn load(&mut self, want: &Want) -> Ticket {
-        let (src, sha256, name) = match &want.source {
+        match &want.source {
             Source::Builtin(name) => {
                 let ticket = self.0.borrow_mut().new_ticket();
                 self.start(ticket, &builtin_task(name, want));
                 return ticket;
             }
-            Source::Clay(clay) => {
+            Source::Clay(clay) if !want.has_file() => {
                 let ticket = self.0.borrow_mut().new_ticket();
-                self.start(ticket, &Task::Clay(clay_to_text(clay)));
+                self.start(ticket, &Task::Clay(clay_to_text(clay), None));
                 return ticket;
             }
-            Source::File { src, sha256, name } => (src, sha256, name),
-        };
-        let Some(src) = src else {
-            let hash = sha256.as_deref().unwrap_or_default().to_lowercase();
+            Source::Clay(_) | Source::File { .. } => {}
+        }
+        let Some(src) = want.src() else {
+            let hash = want.sha256().unwrap_or_default().to_lowercase();
             let known = self.0.borrow().known.get(&hash).cloned();
             let Some(files) = known else {
-                return self.fail(wanted_file(name));
+                return self.fail(wanted_file(want.name()));
             };
             let ticket = self.0.borrow_mut().new_ticket();
             let labels = self.0.borrow().labels.clone();
             let task = scan_task(files, want.reading.clone(), labels);
-            self.start(ticket, &task);
+            self.start(ticket, &file_task(want, task));
             return ticket;
         };
         let base = self.0.borrow().place.base.clone();
@@ -615,7 +618,8 @@ impl Services for PageServices {
                 ..Reading::default()
             };
             let labels = self.0.borrow().labels.clone();
-            self.start(ticket, &scan_task(files, reading, labels));
+            let task = scan_task(files, reading, labels);
+            self.start(ticket, &Task::Scan(task));
         }
     }
 

@@ -11,7 +11,7 @@ use wasm_bindgen_futures::spawn_local;
 use web_sys::{Blob, HtmlCanvasElement};
 
 use super::address::{
-    absolute, address_task, at_base, builtin_task, fetched, foreign_host, part_of,
+    absolute, address_task, at_base, builtin_task, fetched, file_task, foreign_host, part_of,
 };
 use super::loading::wanted_file;
 use super::wished;
@@ -446,13 +446,13 @@ impl Reader {
         let Some(want) = stocked.stock.next_want() else {
             return;
         };
-        let task = Task::Scan(ScanTask::Files {
+        let task = ScanTask::Files {
             files,
-            reading: want.reading,
+            reading: want.reading.clone(),
             segmentations: SegmentationsExpected::default(),
             may_be_field: false,
-        });
-        let started = inner.start_load(stock, &task, &self.inner);
+        };
+        let started = inner.start_load(stock, &file_task(&want, task), &self.inner);
         inner.loads(stock, started);
     }
 
@@ -875,15 +875,18 @@ impl Inner {
     }
 
     fn way(&self, stock: u32, want: &Want) -> Way {
-        let (src, name) = match &want.source {
+        match &want.source {
             Source::Builtin(name) => return Way::Start(builtin_task(name, want)),
-            Source::Clay(clay) => return Way::Start(Task::Clay(clay_to_text(clay))),
-            Source::File { src, name, .. } => (src, name),
-        };
-        let Some(src) = src else {
+            Source::Clay(clay) if !want.has_file() => {
+                return Way::Start(Task::Clay(clay_to_text(clay), None));
+            }
+            Source::Clay(_) | Source::File { .. } => {}
+        }
+        let Some(src) = want.src() else {
+            let message = wanted_file(want.name());
             return match want.role {
-                Role::Object | Role::Mesh => Way::Fail(wanted_file(name)),
-                _ => Way::File(wanted_file(name)),
+                Role::Object | Role::Mesh => Way::Fail(message),
+                _ => Way::File(message),
             };
         };
         let base = self.stocks.get(&stock).map_or("", |s| s.stock.key().base());

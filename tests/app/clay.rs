@@ -201,3 +201,57 @@ fn a_clay_is_begun_from_the_list_of_subjects() {
     window.undo();
     assert!(window.document().to_json().contains("cube"));
 }
+
+/// A corner of 80 mm as a file, and a clay of it whose tip is pulled up; only its hash is known.
+const CORNER: &str = "v 0 0 0\nv 80 0 0\nv 0 80 0\nv 0 0 80\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+const OF_FILE: &str = r#"{ "fabrica": 1, "subject": { "clay": { "from": { "sha256": "HASH", "name": "Corner", "axes": "ras" },
+    "detail": 0.1, "tools": [{ "radius": 0.2 }], "strokes": [{ "path": [-500, -500, 500, 0, 0, 200] }] } },
+    "look": { "strokes": 0 }, "steps": [{ "title": "Pulled", "seconds": 0.1, "set": { "/look/strokes": 1 } }] }"#;
+
+/// A mesh file arrives that the reader opened.
+fn arrives(window: &mut Window, file: &str) {
+    const TICKET: Ticket = Ticket(77);
+    let mesh = fabrica::subjects::mesh("apple").expect("a built-in mesh");
+    let surface = fabrica::data::Surface::new(&mesh, None, &mut |_| true).expect("it has a size");
+    let part = LoadEvent::Part(SubjectPart::Surface(Arc::new(surface)));
+    let sha256 = Some(segment_files::hash(file.as_bytes()));
+    let log = &mut *window.log.0.borrow_mut();
+    log.file_starts(TICKET);
+    log.files
+        .push(("dropped.obj".to_owned(), file.as_bytes().to_vec()));
+    for event in [part, LoadEvent::Done { sha256 }] {
+        log.queue.push(Message::Load {
+            ticket: TICKET,
+            event,
+        });
+    }
+}
+
+#[test]
+fn the_file_that_a_clay_waits_for_answers_it() {
+    let text = OF_FILE.replace("HASH", &segment_files::hash(CORNER.as_bytes()));
+    let mut window = Window::open(DESK, &text);
+    window.settle();
+    assert_eq!(window.strokes_asked(), [0]);
+    let wanted = window.harness.query_all_by_label_contains("Corner");
+    assert!(wanted.count() > 0, "the file is asked for by its name");
+    // Another one is refused.
+    arrives(&mut window, &CORNER.replace("80", "90"));
+    window.settle();
+    assert_eq!(window.strokes_asked(), [0]);
+    arrives(&mut window, CORNER);
+    window.settle();
+    assert_eq!(window.strokes_asked(), [0, 0]);
+    assert!(window.harness.state().is_at_rest());
+    let before = window.document().to_json_compact();
+    window.click("Next step");
+    window.steps(PASSAGE);
+    window.settle();
+    assert_eq!(window.strokes_asked().last(), Some(&1));
+    window.look("clay of a file");
+    assert_eq!(
+        window.document().to_json_compact(),
+        before,
+        "nothing was written"
+    );
+}

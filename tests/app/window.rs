@@ -6,10 +6,13 @@ use super::*;
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
 use fabrica::app::{SetText, TextOver, TextToSet};
 use fabrica::assets::{BendAnswer, BendPose, BendRequest, Role, Source, Want};
-use fabrica::load::{LabelSource, LoadReport, ReadOptions, read_label_file, read_subject};
+use fabrica::document::Clay;
+use fabrica::load::{
+    LabelSource, LoadReport, MemoryFiles, ReadOptions, read_label_file, read_subject,
+};
 use fabrica::render::Gpu;
 use fabrica::shell::bending::{Desk, make_figure};
-use fabrica::shell::clays::{ClayDesk, make_clay};
+use fabrica::shell::clays::{ClayDesk, make_clay, make_clay_of_file};
 use fabrica::shell::figures::read_figure;
 use std::sync::OnceLock;
 
@@ -99,9 +102,37 @@ impl Fake {
 }
 
 impl Log {
+    /// Shapes a clay as the shells do, of one of its files where it begins with a file.
+    fn shape(&mut self, clay: &Arc<Clay>, want: &Want, ticket: Ticket) {
+        let mut files = MemoryFiles::new(self.files.clone());
+        let is_it = |(name, bytes): &&(String, Vec<u8>)| match want.src() {
+            Some(src) => name == src,
+            None => want.check(&segment_files::hash(bytes)).is_ok(),
+        };
+        let name = self.files.iter().find(is_it).map(|(name, _)| name.clone());
+        let (mut desk, queue) = (ClayDesk::default(), &mut self.queue);
+        let mut post = |event: LoadEvent| {
+            queue.push(Message::Load { ticket, event });
+            true
+        };
+        match name {
+            _ if !want.has_file() => make_clay(&mut desk, clay, &mut post),
+            Some(name) => make_clay_of_file(&mut desk, clay, (&mut files, &name), &mut post),
+            None => {
+                let message = fabrica::shell::loading::wanted_file(want.name());
+                let (details, fault) = (String::new(), None);
+                post(LoadEvent::Failed {
+                    message,
+                    details,
+                    fault,
+                });
+            }
+        }
+    }
+
     /// Reads one of its files as the shells do.
     pub(crate) fn read(&mut self, name: &str, role: Role, ticket: Ticket) {
-        let mut files = fabrica::load::MemoryFiles::new(self.files.clone());
+        let mut files = MemoryFiles::new(self.files.clone());
         let options = ReadOptions::default();
         let mut report = LoadReport::default();
         let outcome = match role {
@@ -211,13 +242,8 @@ impl Services for Fake {
         if !log.is_slow
             && let Source::Clay(clay) = &want.source
         {
-            let mut post = |event: LoadEvent| {
-                log.queue.push(Message::Load { ticket, event });
-                true
-            };
-            make_clay(&mut ClayDesk::default(), clay, &mut post);
-        }
-        if !log.is_slow
+            log.shape(clay, want, ticket);
+        } else if !log.is_slow
             && let Some(src) = want.src()
         {
             log.read(src, want.role, ticket);

@@ -7,12 +7,13 @@ use fabrica::data::{FieldSamples, Grid, Resources, Subject, Surface, Volume, Vol
 use fabrica::document::{
     Illustration, Lesson, ObjectSource, STYLE_PRESETS, SubjectRef, TemplateData,
 };
-use fabrica::load::{FieldUse, OneFile, read_field};
+use fabrica::load::{FieldUse, FileSet, LoadReport, MemoryFiles, OneFile, read_field};
 use fabrica::shell::clays::{ClayDesk, surface_of_clay};
 use fabrica::subjects::{FINE_RESOLUTION, tool};
 use glam::DVec3;
 use image::RgbaImage;
 use serde_json::{Value, json};
+use sha2::{Digest as _, Sha256};
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::Arc;
@@ -502,6 +503,70 @@ fn a_clay_is_drawn_as_the_native_program_draws_it() {
         let mut findings = Findings::default();
         findings.compare("clay", &page, &image, &[("/subject/clay/strokes/2", plain)]);
         findings.tell();
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// A clay begins with a file beside the page, or with one that the reader drops: the part that shapes it reads the file.
+#[test]
+fn a_clay_of_a_file_is_drawn_as_the_native_program_draws_it() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let obj = bumpy_ball().into_bytes();
+        let server = &session.server;
+        server.add("ball.obj", obj.clone());
+        let json = |from: String, pulled: u32| {
+            format!(
+                r#"{{"fabrica":1,"subject":{{"clay":{{"from":{{{from}}},"detail":0.04,"tools":[{{"radius":0.15}}],
+                "strokes":[{{"path":[0,0,400,0,0,{pulled}]}}]}}}},"camera":{{"rotate":[0.3,0.2,0.1,0.92]}}}}"#
+            )
+        };
+        let at_src = || r#""src":"ball.obj""#.to_owned();
+        let link = payload(&json(at_src(), 200));
+        let tab = session.coarse_viewer(&format!("#{link}"), (300, 420)).await;
+        tab.settled().await;
+        assert_eq!(parts::count(server, "fabrica_clay_bg.wasm"), 1);
+        for part in ["subjects", "scans", "meshes", "pictures", "figures"] {
+            let name = format!("fabrica_{part}");
+            assert_eq!(parts::count(server, &name), 0, "no {part} for a clay");
+        }
+        let page = promised(&tab, "window.fabrica.viewer.picture()").await;
+        let size = page.dimensions().into();
+        let native = Native::open().await;
+        let draw = async |pulled| {
+            let document = Document::from_json(&json(at_src(), pulled)).expect("a good document");
+            let SubjectRef::Clay(clay) = &document.illustration().subject else {
+                panic!("a clay")
+            };
+            let (mut desk, mut report) = (ClayDesk::default(), LoadReport::default());
+            let mut files = MemoryFiles::new([("ball.obj", obj.clone())]);
+            let file: (&mut dyn FileSet, &str) = (&mut files, "ball.obj");
+            let begun = desk.begin(clay, file, &mut report, &mut |_| true);
+            begun.expect("a mesh");
+            let made = surface_of_clay(&mut desk, clay, &mut |_| true);
+            let subject = Subject::from(made.expect("it can be made").0);
+            let studio = Studio::new(&native.gpu, &subject, true).expect("it fits");
+            drawn(&studio, document.illustration(), size).await
+        };
+        let image = draw(200).await;
+        let plain = draw(100).await;
+        let mut findings = Findings::default();
+        findings.compare(
+            "clay of a file",
+            &page,
+            &image,
+            &[("/subject/clay/strokes/0", plain)],
+        );
+        findings.tell();
+        // The same by its hash, once the reader has dropped the file.
+        let hash = fabrica::math::hex(&Sha256::digest(&obj));
+        let link = payload(&json(format!(r#""sha256":"{hash}""#), 200));
+        let tab = session.coarse_viewer(&format!("#{link}"), (300, 420)).await;
+        tab.settled().await;
+        drop_files(&tab, &["ball.obj"]).await;
+        tab.settled().await;
+        let dropped = promised(&tab, "window.fabrica.viewer.picture()").await;
+        let same = difference(&page, &dropped, WHITE);
+        assert_eq!(same.mean, 0.0, "it is the same clay");
         tab.assert_no_complaints().await;
     });
 }

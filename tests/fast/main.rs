@@ -1,5 +1,6 @@
 //! Tests that need no GPU and no page: documents, links, readers, built-in subjects, and the text of the source itself.
 
+mod clays;
 #[path = "../support/data.rs"]
 mod data;
 mod describe;

@@ -609,6 +609,108 @@ fn the_shaping_of_clay_is_measured_without_an_adapter() {
 }
 
 #[test]
+fn a_clay_begins_with_a_file() {
+    const CORNER: &str =
+        "v 0 0 0\nv 80 0 0\nv 0 80 0\nv 0 0 80\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    let folder = folder();
+    let doc = |name: &str, from: &str| {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "from": { FROM, "axes": "ras" }, "detail": 0.1,
+            "tools": [{ "radius": 0.2 }], "strokes": [{ "path": [-500, -500, 500, 0, 0, 200] }] } } }"#;
+        write(&folder, name, text.replace("FROM", from))
+    };
+    let corner = write(&folder, "corner.obj", CORNER);
+    let half = write(&folder, "half.obj", CORNER.replace("80", "40"));
+    let wanted = hash(CORNER.as_bytes());
+    let at_src = doc("at.json", r#""src": "corner.obj""#);
+    let by_hash = doc(
+        "by.json",
+        &format!(r#""sha256": "{wanted}", "name": "Corner""#),
+    );
+    let check = |args: &[&str]| -> Value {
+        let args = [&["clay", "--check", "--json"], args].concat();
+        serde_json::from_str(&fabrica(&args).ok().out).expect("JSON")
+    };
+    let made = check(&[text(&at_src)]);
+    assert_eq!(
+        (&made["euler"], &made["border_edges"]),
+        (&json!(2), &json!(0))
+    );
+    assert_ne!(
+        made["sha256"],
+        check(&[text(&at_src), "--strokes", "0"])["sha256"]
+    );
+    assert_eq!(
+        made,
+        check(&[
+            text(&by_hash),
+            "--mesh",
+            text(&half),
+            "--mesh",
+            text(&corner)
+        ])
+    );
+    assert_eq!(made, check(&[text(&by_hash), "--subject", text(&corner)]));
+    // It comes out in the millimetres in which it came in.
+    for (end, more) in [("ply", &[][..]), ("glb", &["--subject", text(&corner)])] {
+        let mesh = folder.path().join(format!("start.{end}"));
+        let args = ["clay", text(&at_src), "--strokes", "0", "-o", text(&mesh)];
+        fabrica(&[&args, more].concat()).ok();
+        let info = fabrica(&["info", text(&mesh)]).ok().out;
+        assert!(info.contains("80 × 80 × 80"), "{end}: {info}");
+        assert!(info.contains("triangles: 4"), "{end}: {info}");
+    }
+    // Another file is taken where it is given instead, and refused where the document names it.
+    let other = fabrica(&["clay", text(&by_hash), "--subject", text(&half), "--check"]).ok();
+    assert!(
+        other.err.contains("another file than the document means"),
+        "{}",
+        other.err
+    );
+    let ball = write(
+        &folder,
+        "ball.json",
+        r#"{ "fabrica": 1, "subject": { "clay": {} } }"#,
+    );
+    assert_eq!(
+        check(&[text(&ball), "--subject", text(&corner)])["triangles"],
+        4
+    );
+    let from = format!(r#""src": "half.obj", "sha256": "{wanted}""#);
+    let wrong = doc("wrong.json", &from);
+    let picture = folder.path().join("clay.png");
+    let render =
+        |doc: &Path| fabrica(&["render", text(doc), "-o", text(&picture), "--size", "64x48"]);
+    for outcome in [fabrica(&["clay", text(&wrong), "--check"]), render(&wrong)] {
+        outcome.failed(&["half.obj", "another file than the document means", &wanted]);
+    }
+    for outcome in [
+        fabrica(&["clay", text(&by_hash), "--check"]),
+        render(&by_hash),
+    ] {
+        outcome.failed(&["Corner", &wanted, "--subject"]);
+    }
+    let gone = doc("gone.json", r#""src": "gone.obj""#);
+    fabrica(&["clay", text(&gone), "--check"]).failed(&["gone.obj"]);
+    let scan = write(&folder, "scan.nii", scan());
+    fabrica(&["clay", text(&ball), "--subject", text(&scan), "--check"]).failed(&["not a mesh"]);
+    let open = write(&folder, "open.obj", CORNER.replace("f 2 3 4\n", ""));
+    let told = fabrica(&["clay", text(&at_src), "--subject", text(&open), "--check"]).ok();
+    assert!(told.err.contains("is open"), "{}", told.err);
+    assert!(told.out.contains("border edges: "), "{}", told.out);
+    // It is a subject like any other.
+    render(&at_src).ok();
+    let args = ["probe", text(&at_src), "--object"];
+    let inside = fabrica_with(Path::new("."), &args, b"-0.4,-0.4,0.6\n0.4,0.4,0.4\n")
+        .ok()
+        .out;
+    let lines: Vec<&str> = inside.lines().collect();
+    assert!(
+        lines[0].ends_with(",clay") && !lines[1].ends_with(",clay"),
+        "{inside}"
+    );
+}
+
+#[test]
 fn pictures_are_described_in_words() {
     const LESSON: &str = r#"{"fabrica":1,"title":"Frucht","lang":"de-AT","subject":{"builtin":"tomato"},
         "templates":[{"kind":"peel","at":[0,0.3,0],"rotate":[-0.7071,0,0,0.7071],"size":[0.8,0.7,0.44],

@@ -5,7 +5,7 @@ use super::effect::{Effect, SaveFile};
 use super::notices::Gravity;
 use super::session::{STORED_DOCUMENT, Session, payload_of};
 use crate::app::words::{fill, lang, messages, share};
-use crate::assets::{Source, Wanted};
+use crate::assets::{Want, Wanted};
 use crate::describe::{Snippet, snippet};
 use crate::link::ADVISED_LENGTH;
 
@@ -102,11 +102,8 @@ impl Session {
     /// of this machine.
     pub fn needs_own_file(&self) -> bool {
         let wanted = Wanted::of(self.illustration()).0;
-        wanted.iter().any(|want| match &want.source {
-            Source::Builtin(_) | Source::Clay(_) => false,
-            Source::File { src: None, .. } => true,
-            Source::File { src: Some(src), .. } => is_local(src),
-        })
+        let is_own = |want: &Want| want.is_supplied() || want.src().is_some_and(is_local);
+        wanted.iter().any(is_own)
     }
 
     pub(super) fn save_document(&mut self) {

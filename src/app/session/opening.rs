@@ -182,8 +182,10 @@ impl Session {
     /// The document's own file could not be had, and was asked for in this session: a file that is opened answers.
     pub(super) fn waits_for_file(&self) -> bool {
         let subject = &self.illustration().subject;
-        let is_here = is_of(&self.requested, subject);
-        let is_file = !subject.is_made();
+        // A clay was asked for as far as its strokes were shown.
+        let is_it = |asked: &SubjectRef| asked.is_same_data(subject) || asked.is_same_clay(subject);
+        let is_here = self.requested.as_ref().is_some_and(is_it);
+        let is_file = subject.has_file();
         let figure = self.illustration().figure.as_ref();
         let has_work = self.template_count() > 0 || figure.is_some_and(|f| *f != Figure::default());
         let is_asked_for = !self.is_restored || has_work;
@@ -249,6 +251,14 @@ impl Session {
             }
         }
         let is_answer = is_instead || self.waits_for_file();
+        if is_answer && let SubjectRef::Clay(clay) = &self.illustration().subject {
+            // What was read for itself becomes what the clay begins with.
+            let clay = clay.with_file(None, Some(sha256));
+            let edit = Edit::SetSubject(SubjectRef::Clay(Arc::new(clay)));
+            let is_step = self.apply(&edit, false);
+            self.load_subject();
+            return is_step;
+        }
         let subject = SubjectRef::Supplied {
             sha256,
             name: String::new(),
@@ -370,9 +380,11 @@ impl Session {
         }
     }
 
-    /// A load brought the file whose hash the document waits for. True if the document wants it read in another way.
+    /// A load brought the file whose hash the document waits for. True if the document wants it read in another way, or
+    /// made a clay.
     fn wants_other_frame(&self, loaded: &Reading) -> bool {
         let subject = &self.illustration().subject;
-        !subject.is_made() && Want::subject(subject).reading != *loaded
+        let is_clay = matches!(subject, SubjectRef::Clay(_));
+        is_clay || !subject.is_made() && Want::subject(subject).reading != *loaded
     }
 }

@@ -1,7 +1,7 @@
 //! A clay: a starting shape, tools, and the strokes that shape it (spec/sweepers.md, B). The document holds this recipe
 //! and never the mesh.
 
-use super::mesh::MeshRef;
+use super::mesh::{MeshParts, MeshReading, MeshRef};
 use crate::displace::ToolShape;
 use std::sync::Arc;
 
@@ -58,6 +58,33 @@ impl Clay {
         let both = self.strokes.iter().zip(&other.strokes);
         let shared = both.take_while(|(a, b)| a == b && a.moves.iter().all(is_same_tool));
         Some(shared.count())
+    }
+
+    /// The mesh file that it begins with; `None` where it begins with something else.
+    pub fn file(&self) -> Option<&MeshRef> {
+        match &self.from {
+            ClayStart::Mesh(mesh) => Some(mesh),
+            ClayStart::Shape(_) | ClayStart::Unknown(_) => None,
+        }
+    }
+
+    /// This clay with another file in place of what it begins with, read as that was. The strokes stay.
+    #[must_use]
+    pub fn with_file(&self, src: Option<String>, sha256: Option<String>) -> Self {
+        let reading = self.file().map(|mesh| mesh.reading);
+        Self {
+            from: ClayStart::Mesh(MeshRef {
+                index: 0,
+                src,
+                sha256,
+                name: String::new(),
+                reading: reading.unwrap_or(MeshReading {
+                    parts: MeshParts::Whole,
+                    ..MeshReading::default()
+                }),
+            }),
+            ..self.clone()
+        }
     }
 
     /// True if both begin with the same mesh and have the same tools: one may be the other with more strokes.

@@ -62,6 +62,15 @@ impl SubjectRef {
         matches!(self, Self::Builtin { .. } | Self::Clay(_))
     }
 
+    /// True for what is read from a file, or made of one.
+    pub fn has_file(&self) -> bool {
+        match self {
+            Self::Builtin { .. } => false,
+            Self::Clay(clay) => clay.file().is_some(),
+            Self::Address { .. } | Self::Supplied { .. } | Self::Meshes { .. } => true,
+        }
+    }
+
     /// True if both are clays of one start, however far each is shaped.
     pub fn is_same_clay(&self, other: &Self) -> bool {
         match (self, other) {
@@ -89,27 +98,27 @@ impl SubjectRef {
         }
     }
 
-    /// Address of its file, or of the first of several; `None` for a built-in subject, a clay, and a file that the
-    /// reader supplies.
+    /// Address of its file, or of the first of several; `None` where there is no file, and for one that the reader
+    /// supplies.
     pub fn src(&self) -> Option<&str> {
         match self {
-            Self::Builtin { .. } | Self::Supplied { .. } | Self::Clay(_) => None,
+            Self::Builtin { .. } | Self::Supplied { .. } => None,
+            Self::Clay(clay) => clay.file()?.src.as_deref(),
             Self::Address { src, .. } => Some(src),
             Self::Meshes { meshes, .. } => meshes.first()?.src.as_deref(),
         }
     }
 
-    /// SHA-256 of the file, or of the first of several, that the reader supplies; `None` for a built-in subject, a
-    /// clay, and a file with an address.
+    /// SHA-256 of the file, or of the first of several, that the reader supplies; `None` where there is no file, and
+    /// for one with an address.
     pub fn supplied_sha256(&self) -> Option<&str> {
-        match self {
-            Self::Builtin { .. } | Self::Address { .. } | Self::Clay(_) => None,
-            Self::Supplied { sha256, .. } => Some(sha256),
-            Self::Meshes { meshes, .. } => {
-                let first = meshes.first().filter(|mesh| mesh.src.is_none())?;
-                first.sha256.as_deref()
-            }
-        }
+        let first = match self {
+            Self::Builtin { .. } | Self::Address { .. } => None,
+            Self::Supplied { sha256, .. } => return Some(sha256),
+            Self::Meshes { meshes, .. } => meshes.first(),
+            Self::Clay(clay) => clay.file(),
+        };
+        first.filter(|mesh| mesh.src.is_none())?.sha256.as_deref()
     }
 
     /// True if both are the same data, read in the same way, whatever the author calls them.

@@ -2,7 +2,7 @@
 
 use crate::document::{
     Clay, ClayKey, ClayShape, ClayStart, ClayTool, Document, Edit, Illustration, SubjectRef,
-    ToolShape,
+    ToolShape, clay_from_text, clay_to_text,
 };
 use serde_json::{Value, json};
 
@@ -84,7 +84,7 @@ fn the_example_of_the_specification_is_read() {
         [key([0, 350, 620], turn, 100), key([0, 330, 480], turn, 100)]
     );
     let subject = &document.illustration().subject;
-    assert!(subject.is_made());
+    assert!(subject.is_made() && !subject.has_file());
     assert_eq!(subject.is_figure(), Some(false));
     assert_eq!((subject.src(), subject.reading()), (None, None));
 }
@@ -180,6 +180,28 @@ fn a_clay_may_be_made_from_a_file() {
     );
     assert_eq!(mesh.name, "Foot");
     assert!(mesh.reading.units.is_some() && mesh.reading.axes.is_some());
+    let subject = &document.illustration().subject;
+    assert!(subject.has_file() && subject.is_made());
+    assert_eq!(
+        (subject.src(), subject.supplied_sha256()),
+        (None, Some(sha256.as_str()))
+    );
+    // As the part of the page gets it, and with another file.
+    let again = clay_from_text(&clay_to_text(clay(&document)));
+    assert_eq!(again.as_ref(), Ok(clay(&document)));
+    let other = clay(&document).with_file(Some("a.stl".to_owned()), None);
+    let file = other.file().expect("a file");
+    assert_eq!(
+        (file.src.as_deref(), file.sha256.as_ref()),
+        (Some("a.stl"), None)
+    );
+    assert_eq!(
+        (file.reading, &other.tools),
+        (mesh.reading, &clay(&document).tools)
+    );
+    let of_shape = Clay::default().with_file(Some("a.stl".to_owned()), None);
+    let said = right(json!({ "from": { "src": "a.stl" } }));
+    assert_eq!(&of_shape, clay(&said), "as if the document had named it");
     assert!(notices(&document)[0].starts_with("/subject/clay/from/shape: "));
     for (from, name, at) in [
         (json!({ "shape": "egg" }), "egg", "from/shape"),

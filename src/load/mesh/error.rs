@@ -74,3 +74,14 @@ pub enum MeshError {
         name: String,
     },
 }
+
+impl From<MeshError> for LoadError {
+    fn from(error: MeshError) -> Self {
+        match error {
+            MeshError::File(error) => error,
+            other => Self::Mesh {
+                message: other.to_string(),
+            },
+        }
+    }
+}

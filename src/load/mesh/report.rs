@@ -54,6 +54,32 @@ pub enum Aside {
     ManyMaterials,
 }
 
+impl Aside {
+    /// True for what only has to do with colours and textures: a reader who wants none need not hear of it.
+    pub fn is_of_colors(&self) -> bool {
+        match self {
+            Self::NoLibrary
+            | Self::NoPicture
+            | Self::Picture(_)
+            | Self::ManyTextures
+            | Self::Inks
+            | Self::Reduced { .. }
+            | Self::Attributes
+            | Self::NamedTexture
+            | Self::OtherTextures
+            | Self::ManyMaterials => true,
+            Self::Points
+            | Self::Lines
+            | Self::Curves
+            | Self::WrongCount
+            | Self::FaceProperties
+            | Self::Skins
+            | Self::Animations
+            | Self::TrailingBytes => false,
+        }
+    }
+}
+
 impl fmt::Display for Aside {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -3,7 +3,6 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::error::MeshError;
 use super::options::MeshOptions;
 use super::read::read_mesh;
 use super::textures::{fit, notices, take_packed};
@@ -71,12 +70,6 @@ pub fn read_meshes(
         };
         let (mut mesh, found) = read_mesh(files, &entry.file, &options, &mut |part| {
             sink.progress(READING * (k as f32 + part) / meshes.len() as f32)
-        })
-        .map_err(|error| match error {
-            MeshError::File(error) => error,
-            other => LoadError::Mesh {
-                message: other.to_string(),
-            },
         })?;
         triangles += mesh.triangles.len() as u64;
         if k == 0 {

@@ -1,14 +1,15 @@
 //! What a document holds: `fabrica info` of a document or a link.
 
 use std::fmt::Write as _;
-use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::args::Common;
 use super::clay::shape;
 use super::error::CliError;
 use super::opening::Opened;
 use super::output::{one_line, print};
+use crate::assets::Want;
 use crate::clay::Shaping;
 use crate::data::measure;
 use crate::document::{Clay, ClayStart, ClayTool, Illustration, MeshRef, SubjectRef};
@@ -17,11 +18,12 @@ use crate::load::{cubic, short, times};
 /// Most lines of one list; what is beyond them is counted.
 const MOST_LINES: usize = 64;
 
-/// Prints what a document holds, as it stands before its first step. A clay is shaped for it; a file is not opened.
+/// Prints what a document holds, as it stands before its first step. A clay is shaped for it; another file than that of a clay is
+/// not opened.
 ///
 /// # Errors
 /// [`CliError::Subject`] if the clay cannot be made.
-pub(super) fn about(opened: &Opened) -> Result<(), CliError> {
+pub(super) fn about(common: &Common, opened: &Opened) -> Result<(), CliError> {
     opened.report_notices();
     let illustration = opened.document.illustration();
     let mut text = "kind: Fabrica document\n".to_owned();
@@ -35,7 +37,13 @@ pub(super) fn about(opened: &Opened) -> Result<(), CliError> {
             format!("subject: {}\n", of_supplied(sha256, name))
         }
         SubjectRef::Meshes { meshes, .. } => of_meshes(meshes),
-        SubjectRef::Clay(clay) => of_clay(clay, illustration)?,
+        SubjectRef::Clay(clay) => {
+            let want = Want::subject(&illustration.subject_shown());
+            let given = (common, opened.folder.as_path());
+            shape(&want, given, None, |shown, shaping| {
+                of_clay(clay, shown, shaping)
+            })?
+        }
     };
     print(&(text + &of_rest(illustration)))
 }
@@ -71,18 +79,10 @@ fn of_meshes(meshes: &[MeshRef]) -> String {
     )
 }
 
-/// A clay with the strokes that are shown.
-fn of_clay(clay: &Arc<Clay>, illustration: &Illustration) -> Result<String, CliError> {
-    let shown = match illustration.look.strokes {
-        Some(strokes) => clay.cut(strokes),
-        None => Arc::clone(clay),
-    };
-    shape(&shown, None, |shaping| of_shaped(clay, &shown, shaping))
-}
-
-fn of_shaped(clay: &Clay, shown: &Clay, shaping: &Shaping) -> String {
+/// A clay with the strokes that are `shown`.
+fn of_clay(clay: &Clay, shown: &Clay, shaping: &Shaping) -> String {
     let mut text = "subject: clay\n".to_owned();
-    let start = match &clay.from {
+    let start = match &shown.from {
         ClayStart::Shape(shape) => shape.name().to_owned(),
         ClayStart::Mesh(mesh) => of_mesh(mesh),
         ClayStart::Unknown(name) => one_line(name),

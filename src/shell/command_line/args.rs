@@ -22,7 +22,8 @@ pub(super) struct Args {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Common {
-    /// A scan, a mesh or a picture that takes the place of the document's subject.
+    /// A scan, a mesh or a picture that takes the place of the document's subject; of a clay it is the mesh that it
+    /// begins with, and the strokes stay.
     #[arg(long, global = true, value_name = "FILE")]
     pub(super) subject: Option<PathBuf>,
     /// A displacement field that the document names by its hash; may be given several times.
@@ -31,7 +32,8 @@ pub(super) struct Common {
     /// A label volume beside the scan; may be given several times.
     #[arg(long, global = true, value_name = "FILE")]
     pub(super) segments: Vec<PathBuf>,
-    /// A mesh of the subject that the document names by its hash; may be given several times.
+    /// A mesh of the subject that the document names by its hash, that which a clay begins with too; may be given
+    /// several times.
     #[arg(long = "mesh", global = true, value_name = "FILE")]
     pub(super) meshes: Vec<PathBuf>,
     #[command(flatten)]

@@ -1,7 +1,6 @@
 //! `fabrica clay`: the mesh of a clay as a file, or what it is like.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use super::args::{Common, Moment};
 use super::error::{CliError, MissingSubject};
@@ -9,9 +8,10 @@ use super::opening::Opened;
 use super::output::{notice, print, write_whole};
 use super::progress::Progress;
 use super::stop;
+use super::subject::begun;
+use crate::assets::Want;
 use crate::clay::{Check, ClayError, Export, Form, Shaping, mesh_sha256};
-use crate::document::{Clay, SubjectRef};
-use crate::shell::clays::ClayDesk;
+use crate::document::Clay;
 
 /// The formats that are written, by the ends of file names.
 #[derive(Clone, Copy)]
@@ -42,8 +42,9 @@ pub(super) fn write_clay(
             ));
         }
     };
-    let (clay, title) = clay_of(common, opened, strokes, moment)?;
-    let shaped = shape(&clay, Some(output), Shaping::shaped)?;
+    let (want, title) = clay_of(common, opened, strokes, moment)?;
+    let given = (common, opened.folder.as_path());
+    let shaped = shape(&want, given, Some(output), |_, shaping| shaping.shaped())?;
     let export = Export {
         positions_mm: &shaped.positions_mm(),
         normals: &shaped.normals,
@@ -67,14 +68,18 @@ pub(super) fn check_clay(
     moment: Moment,
     is_json: bool,
 ) -> Result<(), CliError> {
-    let (clay, _) = clay_of(common, opened, strokes, moment)?;
-    let shaped = shape(&clay, None, Shaping::shaped)?;
+    let (want, _) = clay_of(common, opened, strokes, moment)?;
+    let given = (common, opened.folder.as_path());
+    // Strokes that smooth are no deformation of space, and may let triangles meet.
+    let smoothing = |clay: &Clay| {
+        let acting = clay.strokes.iter().filter(|stroke| !stroke.is_off);
+        acting.filter(|stroke| stroke.smooth.is_some()).count()
+    };
+    let take = |clay: &Clay, shaping: &Shaping| (smoothing(clay), shaping.shaped());
+    let (smoothing, shaped) = shape(&want, given, None, take)?;
     let mut check = Check::of_clay(&shaped);
     // Of the mesh as it is written, in millimetres.
     check.sha256 = mesh_sha256(&shaped.positions_mm(), &shaped.triangles);
-    // These are no deformation of space, and may let triangles meet.
-    let acting = clay.strokes.iter().filter(|stroke| !stroke.is_off);
-    let smoothing = acting.filter(|stroke| stroke.smooth.is_some()).count();
     print(&if is_json {
         let mut json = check.to_json();
         json["smoothing_strokes"] = smoothing.into();
@@ -84,36 +89,39 @@ pub(super) fn check_clay(
     })
 }
 
-/// The clay of a document at a moment, its first strokes if a number is given, and the document's title.
+/// What a document wants at a moment, its first strokes if a number is given, if its subject is a clay, and its title.
 fn clay_of(
     common: &Common,
     opened: &Opened,
     strokes: Option<u32>,
     moment: Moment,
-) -> Result<(Arc<Clay>, String), CliError> {
+) -> Result<(Want, String), CliError> {
     let (mut illustration, _) = opened.illustration(moment, common)?;
     if strokes.is_some() {
         illustration.look.strokes = strokes;
     }
-    match illustration.subject_shown() {
-        SubjectRef::Clay(clay) => Ok((clay, illustration.title)),
-        _ => Err(CliError::Usage("the document's subject is no clay")),
+    let want = Want::subject(&illustration.subject_shown());
+    match want.clay() {
+        Some(_) => Ok((want, illustration.title)),
+        None => Err(CliError::Usage("the document's subject is no clay")),
     }
 }
 
-/// Shapes a clay and takes of it what is asked for. `output`: what is to be written, if anything is.
+/// Shapes the clay of a want and takes of it what is asked for; `folder` is that of the document. `output`: what is to
+/// be written, if anything is.
 ///
 /// # Errors
 /// [`CliError::Subject`] if it cannot be made; [`CliError::Stopped`].
 pub(super) fn shape<T>(
-    clay: &Arc<Clay>,
+    want: &Want,
+    (common, folder): (&Common, &Path),
     output: Option<&Path>,
-    take: impl FnOnce(&Shaping) -> T,
+    take: impl FnOnce(&Clay, &Shaping) -> T,
 ) -> Result<T, CliError> {
     stop::watch();
-    let mut desk = ClayDesk::default();
+    let (mut desk, clay, _) = begun(want, common, folder)?;
     let mut progress = Progress::of("shaped");
-    let made = desk.shape(clay, &mut |part| {
+    let made = desk.shape(&clay, &mut |part| {
         progress.tell(part);
         !stop::is_wished()
     });
@@ -121,7 +129,7 @@ pub(super) fn shape<T>(
     match made {
         Ok(shaping) => {
             shaping.notices().iter().for_each(notice);
-            Ok(take(shaping))
+            Ok(take(&clay, shaping))
         }
         Err(ClayError::Stopped) if let Some(path) = output => Err(CliError::Stopped {
             path: path.display().to_string(),

@@ -14,7 +14,7 @@ use super::reading::hint;
 pub(super) fn info(common: &Common, what: &str) -> Result<(), CliError> {
     let file = Path::new(what);
     if !file.exists() || is_document(file) {
-        return about(&open(what)?);
+        return about(common, &open(what)?);
     }
     if let Some(description) = describe_figure(file)? {
         return print(&description);

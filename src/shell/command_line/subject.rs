@@ -17,7 +17,7 @@ use crate::data::{
 };
 use crate::document::{Clay, DRAWN_FIGURES, Illustration, Reading};
 use crate::figure::builtin_plate;
-use crate::load::{LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
+use crate::load::{FileSet, LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
 use crate::render::{KeptTissue, RenderNotice, lidded};
 use crate::shell::clays::{ClayDesk, surface_of_clay};
 use crate::shell::figures::read_any;
@@ -116,49 +116,53 @@ fn take_subject(
     folder: &Path,
     limits: VolumeLimits,
 ) -> Result<(), MissingSubject> {
-    let reading = common.reading.over(Some(&want.reading));
-    let read = |path: &Path| read(path, &reading, limits, folder, &common.meshes);
-    if let Some(path) = &common.subject {
-        let data = read(path)?;
-        if let Some(Err(other)) = data.sha256().map(|found| want.check(found)) {
-            notice(format!("{} is {other}", path.display()));
-        }
-        assets.give(data);
+    if let Some(clay) = want.clay() {
+        // What it begins with is the right file, or a notice has said that it is not.
+        assets.give_subject(shaped(want, common, folder)?, Some(Arc::clone(clay)));
         return Ok(());
     }
-    match &want.source {
-        Source::Builtin(name) => {
+    let reading = common.reading.over(Some(&want.reading));
+    let path = file_of(want, common, folder)?;
+    let data = match (&want.source, &path) {
+        (_, Some(path)) => read(path, &reading, limits, folder, &common.meshes)?,
+        (Source::Builtin(name), None) => {
             if let Some(revision) = illustration.subject_revision.filter(|r| *r > 1) {
                 notice(format!(
                     "/subject/revision: this version does not know revision {revision} of {name}; the first is drawn"
                 ));
             }
-            assets.give(Data::Subject {
+            Data::Subject {
                 subject: generate(name)?,
                 sha256: None,
-            });
-            Ok(())
+            }
         }
-        Source::Clay(clay) => {
-            let data = Data::Subject {
-                subject: shaped(clay)?,
-                sha256: None,
-            };
-            let taken = assets.take(want, data);
-            taken.map_err(|other| MissingSubject::other(Path::new(""), other))
-        }
-        Source::File { src: Some(src), .. } => {
-            let path = local(folder, src).ok_or_else(|| MissingSubject::remote(want))?;
-            let taken = assets.take(want, read(&path)?);
-            taken.map_err(|other| MissingSubject::other(&path, other))
-        }
-        Source::File { src: None, .. } => {
-            let path =
-                given_of(&common.meshes, want).ok_or_else(|| MissingSubject::wanted(want))?;
-            let taken = assets.take(want, read(path)?);
-            taken.map_err(|other| MissingSubject::other(path, other))
-        }
+        (_, None) => return Err(MissingSubject::wanted(want)),
+    };
+    if common.subject.is_none() {
+        let taken = assets.take(want, data);
+        return taken.map_err(|other| MissingSubject::other(&path.unwrap_or_default(), other));
     }
+    if let Some(Err(other)) = data.sha256().map(|found| want.check(found)) {
+        notice(format!("{} is {other}", path.unwrap_or_default().display()));
+    }
+    assets.give(data);
+    Ok(())
+}
+
+/// The file of a subject: the one of `--subject`, that at its address, or the one of those given that has its hash;
+/// `None` for what is made of no file.
+fn file_of(want: &Want, common: &Common, folder: &Path) -> Result<Option<PathBuf>, MissingSubject> {
+    if common.subject.is_some() {
+        return Ok(common.subject.clone());
+    }
+    let found = match want.src() {
+        Some(src) => local(folder, src).ok_or_else(|| MissingSubject::remote(want))?,
+        None if want.is_supplied() => given_of(&common.meshes, want)
+            .ok_or_else(|| MissingSubject::wanted(want))?
+            .to_owned(),
+        None => return Ok(None),
+    };
+    Ok(Some(found))
 }
 
 /// Brings the meshes beside a volume. A notice names those whose files are not there; they are left out.
@@ -328,15 +332,57 @@ pub(super) fn generate(name: &str) -> Result<Subject, MissingSubject> {
 }
 
 /// A clay as its recipe has it. Notices say what of it cannot be done.
-fn shaped(clay: &Arc<Clay>) -> Result<Subject, MissingSubject> {
+fn shaped(want: &Want, common: &Common, folder: &Path) -> Result<Data, MissingSubject> {
+    let (mut desk, clay, sha256) = begun(want, common, folder)?;
     let mut progress = Progress::of("shaped");
-    let made = surface_of_clay(&mut ClayDesk::default(), clay, &mut |part| {
+    let made = surface_of_clay(&mut desk, &clay, &mut |part| {
         progress.tell(part);
         !stop::is_wished()
     });
     let (surface, notices) = made?;
     notices.iter().for_each(notice);
-    Ok(surface.into())
+    Ok(Data::Subject {
+        subject: surface.into(),
+        sha256,
+    })
+}
+
+/// A desk that has read the file of a clay, if that begins with one, the recipe, and the hash of the file. That of
+/// `--subject` takes the place of what the clay begins with; any other has to be the one that the document means.
+pub(super) fn begun(
+    want: &Want,
+    common: &Common,
+    folder: &Path,
+) -> Result<(ClayDesk, Arc<Clay>, Option<String>), MissingSubject> {
+    let mut desk = ClayDesk::default();
+    let mut clay = want.clay().cloned().unwrap_or_default();
+    let Some(path) = file_of(want, common, folder)? else {
+        return Ok((desk, clay, None));
+    };
+    let shown = path.display().to_string();
+    if common.subject.is_some() {
+        clay = Arc::new(clay.with_file(Some(shown.clone()), None));
+    }
+    let (mut files, name) = Folder::of(&path);
+    let mut report = LoadReport::default();
+    let file: (&mut dyn FileSet, &str) = (&mut files, &name);
+    let read = desk.begin(&clay, file, &mut report, &mut |_| !stop::is_wished());
+    for line in report.notices() {
+        notice(format!("{shown}: {line}"));
+    }
+    read.map_err(|source| MissingSubject::File {
+        path: shown,
+        source,
+    })?;
+    let sha256 = report.sha256_hex();
+    match sha256.as_ref().map(|found| want.check(found)) {
+        Some(Err(other)) if common.subject.is_some() => {
+            notice(format!("{} is {other}", path.display()));
+        }
+        Some(Err(other)) => return Err(MissingSubject::other(&path, other)),
+        Some(Ok(())) | None => {}
+    }
+    Ok((desk, clay, sha256))
 }
 
 /// The given file that has the hash of a want.

@@ -6,11 +6,13 @@ use js_sys::Reflect;
 use wasm_bindgen::prelude::*;
 
 use super::answer::post;
+use super::blobs::{BlobFiles, fetch, name_of, not_fetched};
 use super::fault;
-use super::task::Part;
+use super::task::{Part, ScanTask};
 use crate::assets::LoadEvent;
 use crate::document::clay_from_text;
-use crate::shell::clays::{ClayDesk, make_clay};
+use crate::load::mesh_among;
+use crate::shell::clays::{ClayDesk, make_clay, make_clay_of_file};
 
 /// Called once when the part has been loaded.
 pub fn loaded() {
@@ -21,13 +23,34 @@ pub fn loaded() {
 ///
 /// # Errors
 /// If the message is no task, or the page cannot take the answer.
-pub fn run(message: JsValue) -> Result<(), JsValue> {
+pub async fn run(message: JsValue) -> Result<(), JsValue> {
     fault::heed_scope(&message);
     post::module_unless_known(&message, Part::Clay)?;
     let text = Reflect::get(&message, &"clay".into())?;
     let clay = clay_from_text(&text.as_string().unwrap_or_default());
-    let clay = clay.map_err(|error| JsValue::from(error.to_string()))?;
+    let clay = Arc::new(clay.map_err(|error| JsValue::from(error.to_string()))?);
+    let mut desk = ClayDesk::default();
     let mut post = |event: LoadEvent| post::event(event).is_ok();
-    make_clay(&mut ClayDesk::default(), &Arc::new(clay), &mut post);
+    if clay.file().is_none() {
+        make_clay(&mut desk, &clay, &mut post);
+        return Ok(());
+    }
+    let (mut files, name) = match ScanTask::of(&message)? {
+        ScanTask::Address { address, .. } => match fetch(&address).await {
+            Ok(blob) => {
+                let name = name_of(&address);
+                (BlobFiles::new(vec![(name.clone(), blob)]).await?, name)
+            }
+            Err(error) => return post::event(not_fetched("mesh", &address, &error)),
+        },
+        ScanTask::Files { files, .. } => {
+            let first = files.first().map(|file| file.0.clone());
+            let (mut files, names) = BlobFiles::of_all(files).await?;
+            let name = mesh_among(&mut files, &names).or(first);
+            (files, name.unwrap_or_default())
+        }
+        ScanTask::Mesh(..) | ScanTask::Field { .. } => return Err("a clay without a file".into()),
+    };
+    make_clay_of_file(&mut desk, &clay, (&mut files, &name), &mut post);
     Ok(())
 }

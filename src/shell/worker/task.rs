@@ -5,7 +5,7 @@
 //! - for the readers of scans and of meshes `builtin` (of a mesh) and `carves`, `files` (pairs of name and `Blob`),
 //!   `address`, or `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label
 //!   volumes), `has_scan` and `may_be_field`,
-//! - for the shaper of clays `clay` (a text),
+//! - for the shaper of clays `clay` (a text), with `address` or `files` where it begins with a file,
 //! - for the bender of figures `figure` (a text), `bender` (a number: each has one plate), `rounds`, and `plate` where
 //!   it is to be another one from now on.
 
@@ -93,8 +93,8 @@ pub enum Task {
     Scan(ScanTask),
     /// Bend a figure, by the bender of this number.
     Bend(u32, BendRequest),
-    /// Shape a clay, whose recipe this is.
-    Clay(String),
+    /// Shape a clay, whose recipe this is, and read the file that it begins with.
+    Clay(String, Option<ScanTask>),
 }
 
 /// What the parts that read files are to do.
@@ -136,7 +136,7 @@ impl Task {
     pub fn part(&self) -> Part {
         match self {
             Self::Bend(..) => Part::Figures,
-            Self::Clay(_) => Part::Clay,
+            Self::Clay(..) => Part::Clay,
             Self::Subject(name, _) if is_drawn_name(name) => Part::Figures,
             Self::Subject(name, _) if mesh_names().contains(&name.as_str()) => Part::Meshes,
             Self::Subject(..) => Part::Subjects,
@@ -186,19 +186,32 @@ impl Task {
                     set("plate", &pieces::packed_plate(plate))?;
                 }
             }
-            Self::Clay(recipe) => {
+            Self::Clay(recipe, file) => {
                 set("clay", &recipe.into())?;
+                if let Some(file) = file {
+                    file.put_into(&message)?;
+                }
             }
             Self::Subject(name, resolution) => {
                 set("builtin", &name.into())?;
                 set("resolution", &(*resolution).into())?;
             }
-            Self::Scan(ScanTask::Files {
+            Self::Scan(task) => task.put_into(&message)?,
+        }
+        Ok(message)
+    }
+}
+
+impl ScanTask {
+    fn put_into(&self, message: &Object) -> Result<(), JsValue> {
+        let set = |key: &str, value: &JsValue| Reflect::set(message, &key.into(), value);
+        match self {
+            Self::Files {
                 files,
                 reading,
                 segmentations,
                 may_be_field,
-            }) => {
+            } => {
                 let files = files
                     .iter()
                     .map(|(name, blob)| Array::of2(&name.into(), blob));
@@ -209,28 +222,26 @@ impl Task {
                 set("has_scan", &segmentations.has_scan.into())?;
                 set("may_be_field", &(*may_be_field).into())?;
             }
-            Self::Scan(ScanTask::Address {
+            Self::Address {
                 address,
                 are_segments,
                 reading,
-            }) => {
+            } => {
                 set("address", &address.into())?;
                 set("are_segments", &(*are_segments).into())?;
                 set("reading", &text_of_reading(reading).into())?;
             }
-            Self::Scan(ScanTask::Mesh(name, carves)) => {
+            Self::Mesh(name, carves) => {
                 set("builtin", &name.into())?;
                 set("carves", &(*carves).into())?;
             }
-            Self::Scan(ScanTask::Field { name, file }) => {
+            Self::Field { name, file } => {
                 set("field", &Array::of2(&name.into(), file))?;
             }
         }
-        Ok(message)
+        Ok(())
     }
-}
 
-impl ScanTask {
     /// What a message asks for.
     ///
     /// # Errors
