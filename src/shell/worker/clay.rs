@@ -1,5 +1,6 @@
 //! The part that shapes clays.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use js_sys::Reflect;
@@ -13,6 +14,11 @@ use crate::assets::LoadEvent;
 use crate::document::clay_from_text;
 use crate::load::mesh_among;
 use crate::shell::clays::{ClayDesk, make_clay, make_clay_of_file};
+
+thread_local! {
+    /// What the last clay's strokes left: a worker rests between strokes.
+    static DESK: RefCell<ClayDesk> = RefCell::default();
+}
 
 /// Called once when the part has been loaded.
 pub fn loaded() {
@@ -29,10 +35,9 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
     let text = Reflect::get(&message, &"clay".into())?;
     let clay = clay_from_text(&text.as_string().unwrap_or_default());
     let clay = Arc::new(clay.map_err(|error| JsValue::from(error.to_string()))?);
-    let mut desk = ClayDesk::default();
     let mut post = |event: LoadEvent| post::event(event).is_ok();
     if clay.file().is_none() {
-        make_clay(&mut desk, &clay, &mut post);
+        DESK.with_borrow_mut(|desk| make_clay(desk, &clay, &mut post));
         return Ok(());
     }
     let (mut files, name) = match ScanTask::of(&message)? {
@@ -51,6 +56,6 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
         }
         ScanTask::Mesh(..) | ScanTask::Field { .. } => return Err("a clay without a file".into()),
     };
-    make_clay_of_file(&mut desk, &clay, (&mut files, &name), &mut post);
+    DESK.with_borrow_mut(|desk| make_clay_of_file(desk, &clay, (&mut files, &name), &mut post));
     Ok(())
 }
