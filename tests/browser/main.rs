@@ -37,6 +37,7 @@ mod running;
 #[path = "../support/segment_files.rs"]
 mod segment_files;
 mod server;
+mod shaping;
 mod size;
 mod slices;
 mod slow;

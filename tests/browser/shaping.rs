@@ -1,0 +1,68 @@
+//! A clay is shaped by hand in a real browser, and handed on as a link.
+
+use super::hand::{changed, click, document, find, focus, mark, press_with};
+use super::harness::{Tab, with_browser};
+use super::parts::count;
+use super::*;
+
+const CLAY: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05 } } }"#;
+const SIZE: (u32, u32) = (800, 760);
+
+/// Drags over the picture from a place beside its middle, and waits until that is a stroke and the clay is shaped.
+async fn stroke(tab: &Tab, from: (f64, f64), by: (f64, f64)) -> serde_json::Value {
+    let (x, y) = find(tab, "Picture").await.middle();
+    let (x, y) = (x + from.0, y + from.1);
+    mark(tab, "subject").await;
+    tab.drag((x, y), (x + by.0, y + by.1), 6).await;
+    let subject = changed(tab, "subject").await;
+    tab.settled().await;
+    subject["clay"]["strokes"].clone()
+}
+
+#[test]
+fn a_clay_is_shaped_by_hand_and_handed_on() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session
+            .coarse_viewer(&format!("#{}", payload(CLAY)), SIZE)
+            .await;
+        focus(&tab).await;
+        tab.settled().await;
+        let ball = object_part(&tab.picture("clay_begun").await);
+        click(&tab, "Shape the clay").await;
+        // An ear on either side, and a nose in the middle, which the next one takes back.
+        let ears = stroke(&tab, (50.0, -60.0), (30.0, -70.0)).await;
+        assert_eq!(ears.as_array().map(Vec::len), Some(1), "{ears}");
+        assert_eq!(ears[0]["mirror"], "x");
+        let nose = stroke(&tab, (0.0, 30.0), (0.0, 60.0)).await;
+        assert_eq!(nose.as_array().map(Vec::len), Some(2), "{nose}");
+        mark(&tab, "subject").await;
+        press_with(&tab, 2, "z", None).await;
+        let subject = changed(&tab, "subject").await;
+        assert_eq!(subject["clay"]["strokes"], ears);
+        click(&tab, "Put the tool away").await;
+        tab.settled().await;
+        let shaped = object_part(&tab.picture("clay_with_ears").await);
+        let grown = difference(&ball, &shaped, WHITE);
+        assert!(grown.mean > 0.5, "the ears are seen: {grown:?}");
+        assert_eq!(
+            count(&session.server, "fabrica_clay_bg.wasm"),
+            1,
+            "its worker rests between strokes"
+        );
+        tab.assert_no_complaints().await;
+
+        // The same from the link, in another tab.
+        let link: String = tab.eval("window.fabrica.viewer.get_link()").await;
+        let whole = document(&tab).await;
+        tab.page.close().await.expect("the tab closes");
+        let other = session.coarse_viewer(&format!("#{link}"), SIZE).await;
+        focus(&other).await;
+        other.settled().await;
+        let opened = document(&other).await;
+        assert_eq!(opened["subject"], whole["subject"]);
+        let again = object_part(&other.picture("clay_handed_on").await);
+        let off = difference(&shaped, &again, WHITE);
+        assert!(off.mean < 0.2, "the same clay: {off:?}");
+        other.assert_no_complaints().await;
+    });
+}
