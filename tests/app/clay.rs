@@ -168,9 +168,28 @@ fn a_clay_is_shaped_by_hand() {
     assert!(window.strokes()[1].is_off);
     window.click("Remove stroke 3");
     window.wait_for_strokes(2);
+    // One is selected: the keys of its path are dragged in the picture.
     window.click("Stroke 1");
     window.settle();
+    window.look("stroke of a clay");
+    let key = |window: &Window| window.strokes()[0].moves[0].keys[0].at;
+    let (before, dot) = (key(&window), "Key 1 of tool 1");
+    let spot = window.harness.get_by_label(dot).rect().center();
+    window.drag(spot, vec2(-30.0, 0.0));
+    window.settle();
+    assert!(key(&window)[0] > before[0] + 20 && key(&window)[2] == before[2]);
+    window.undo();
+    assert_eq!(key(&window), before, "one step of undo");
+    let show = |strokes: u32| {
+        let pointer = "/look/strokes".to_owned();
+        let name = String::new();
+        let value = Some(serde_json::json!(strokes));
+        fabrica::app::Command::Apply(fabrica::document::Edit::put(pointer, value, name))
+    };
+    window.run_command(show(1));
+    window.settle();
     assert_eq!(window.strokes_asked().last(), Some(&1));
+    window.press(Key::Escape);
     window.click("Shape the clay");
     let said = window
         .harness

@@ -25,6 +25,7 @@ pub(crate) mod slice_plot;
 pub(crate) mod slices;
 pub(crate) mod snap;
 pub(crate) mod steps;
+pub(crate) mod strokes;
 pub(crate) mod title;
 pub(crate) mod tools;
 pub(crate) mod vectors;

@@ -18,7 +18,7 @@ use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
 use super::shaping::{self, ShapingHand};
 use super::tools::{asking_ui, bar_bottom, tools_ui};
-use super::{curve, orientation, points, slice_plot, view_bar, ways};
+use super::{curve, orientation, points, slice_plot, strokes, view_bar, ways};
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, template_menu, widget};
 use crate::app::picture::host::{Picture, found};
@@ -286,6 +286,9 @@ impl Viewport {
         commands: &mut Vec<Command>,
     ) {
         self.markers_ui(ui, view, session, commands);
+        if strokes::ui(ui, view, session, commands) {
+            self.gizmo.release();
+        }
         let object = session.selected_object();
         if let Some(object) = object.and_then(|object| session.placed_object(object)) {
             let held = Held::Object(&object);

@@ -6,7 +6,7 @@ use serde_json::json;
 use crate::app::kit::entry::EntryRow;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::Palette;
-use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
+use crate::app::kit::widget::{self, Named as _, NumberRow};
 use crate::app::session::{ClayCommand, ClayHand, Command, Session, Tool};
 use crate::app::words::clay::w;
 use crate::app::words::{fill, names};
@@ -135,7 +135,6 @@ fn shown_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Comm
 
 /// The strokes, the last first.
 fn list_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Command>) {
-    let shown = session.strokes_shown();
     let strokes = clay.strokes.iter().enumerate().rev();
     for (i, stroke) in strokes.take(ROWS) {
         ui.push_id(("stroke", i), |ui| {
@@ -152,7 +151,7 @@ fn list_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Comma
                         name: &name,
                         title: &name,
                         note: &note,
-                        is_selected: i + 1 == shown && shown < clay.strokes.len(),
+                        is_selected: session.selection.stroke() == Some(i),
                         has_grip: false,
                         group: None,
                         is_shown: Some(!stroke.is_off),
@@ -161,12 +160,7 @@ fn list_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Comma
                     if done.is_toggled {
                         commands.push(Command::Clay(ClayCommand::Switch(i)));
                     } else if done.response.clicked() {
-                        // The clay as it is after this stroke.
-                        let is_last = i + 1 == clay.strokes.len();
-                        let value = (!is_last).then(|| json!(i + 1));
-                        let name = "Change strokes shown".to_owned();
-                        let edit = Edit::put("/look/strokes".to_owned(), value, name);
-                        commands.push(widget::command(Change::Set(edit)));
+                        commands.push(Command::Clay(ClayCommand::Select(i)));
                     }
                 });
             });

@@ -89,7 +89,7 @@ impl Session {
         let group = match moved {
             Selection::Template(index) => group_of(document, index),
             Selection::Object(index) => object_group_of(document, index),
-            Selection::Nothing => "",
+            Selection::Nothing | Selection::Stroke(_) => "",
         };
         if group.is_empty() || self.is_alone {
             return edit;

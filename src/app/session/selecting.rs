@@ -33,8 +33,8 @@ impl Session {
         let next = match self.selection {
             Selection::Template(index) => (index + step) % count,
             Selection::Object(index) => (templates + index + step) % count,
-            Selection::Nothing if forward => 0,
-            Selection::Nothing => count - 1,
+            Selection::Nothing | Selection::Stroke(_) if forward => 0,
+            Selection::Nothing | Selection::Stroke(_) => count - 1,
         };
         self.selection = match next.checked_sub(templates) {
             None => Selection::Template(next),
@@ -67,13 +67,20 @@ impl Session {
                 let next = next(object, before, self.object_count());
                 self.selection = Selection::of_object(next);
             }
+            Selection::Stroke(stroke) => {
+                let count = |session: &Self| session.clay().map_or(0, |clay| clay.strokes.len());
+                let before = count(self);
+                self.apply(&Edit::RemoveStroke { stroke }, false);
+                let next = next(stroke, before, count(self));
+                self.selection = next.map_or(Selection::Nothing, Selection::Stroke);
+            }
         }
     }
 
     /// Makes a copy of what is selected behind it, and selects the copy.
     pub(super) fn duplicate_selected(&mut self) {
         match self.selection {
-            Selection::Nothing => {}
+            Selection::Nothing | Selection::Stroke(_) => {}
             Selection::Template(template) => {
                 if self.apply(&Edit::DuplicateTemplate { template }, false) {
                     self.selection = Selection::Template(template + 1);
@@ -99,6 +106,8 @@ impl Session {
             }
         } else if let Some(object) = self.selected_object() {
             super::objects::enabling(object, !object.enabled)
+        } else if let Some(stroke) = self.selection.stroke() {
+            return self.switch_stroke(stroke);
         } else {
             return;
         };
@@ -115,7 +124,7 @@ impl Session {
             Some(to).filter(|to| *to != from && *to < count)
         };
         let (edit, selection) = match self.selection {
-            Selection::Nothing => return,
+            Selection::Nothing | Selection::Stroke(_) => return,
             Selection::Template(from) => {
                 let Some(to) = moved(from, self.template_count()) else {
                     return;

@@ -1,4 +1,4 @@
-//! What is selected: a template, an object of the scene, or nothing.
+//! What is selected: a template, an object of the scene, a stroke of a clay, or nothing.
 
 /// At most one thing is selected at a time. Indices are those of the document's lists.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,6 +10,8 @@ pub enum Selection {
     Template(usize),
     /// An entry of `objects`.
     Object(usize),
+    /// An entry of the clay's `strokes`.
+    Stroke(usize),
 }
 
 impl Selection {
@@ -27,7 +29,15 @@ impl Selection {
     pub fn template(self) -> Option<usize> {
         match self {
             Self::Template(index) => Some(index),
-            Self::Object(_) | Self::Nothing => None,
+            Self::Object(_) | Self::Stroke(_) | Self::Nothing => None,
+        }
+    }
+
+    /// The index of the stroke, if one is selected.
+    pub fn stroke(self) -> Option<usize> {
+        match self {
+            Self::Stroke(index) => Some(index),
+            Self::Template(_) | Self::Object(_) | Self::Nothing => None,
         }
     }
 
@@ -35,7 +45,7 @@ impl Selection {
     pub fn object(self) -> Option<usize> {
         match self {
             Self::Object(index) => Some(index),
-            Self::Template(_) | Self::Nothing => None,
+            Self::Template(_) | Self::Stroke(_) | Self::Nothing => None,
         }
     }
 }

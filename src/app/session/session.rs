@@ -588,6 +588,7 @@ impl Session {
             Selection::Nothing => false,
             Selection::Template(index) => index >= self.template_count(),
             Selection::Object(index) => index >= self.object_count(),
+            Selection::Stroke(index) => self.clay().is_none_or(|clay| index >= clay.strokes.len()),
         };
         if is_gone {
             self.selection = Selection::Nothing;

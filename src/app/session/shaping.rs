@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::camera;
 use super::drawing::{distance_to, thinned};
 use super::notices::Gravity;
+use super::selection::Selection;
 use super::session::Session;
 use super::shape::seen_across;
 use super::tool::Tool;
@@ -193,6 +194,8 @@ pub enum ClayCommand {
     Switch(usize),
     /// Removes the stroke of this index.
     Remove(usize),
+    /// Selects the stroke of this index.
+    Select(usize),
 }
 
 /// The clay of an illustration, if its subject is one.
@@ -207,6 +210,12 @@ impl Session {
     /// The clay of the document, if its subject is one.
     pub fn clay(&self) -> Option<&Arc<Clay>> {
         clay_of(self.illustration())
+    }
+
+    /// The stroke of the clay that is selected, with its index.
+    pub fn selected_stroke(&self) -> Option<(usize, &ClayStroke)> {
+        let index = self.selection.stroke()?;
+        Some((index, self.clay()?.strokes.get(index)?))
     }
 
     /// How many strokes of the clay are shown.
@@ -235,6 +244,7 @@ impl Session {
             ClayCommand::Remove(stroke) => {
                 self.apply(&Edit::RemoveStroke { stroke }, false);
             }
+            ClayCommand::Select(index) => self.select(Selection::Stroke(index)),
         }
     }
 
@@ -247,12 +257,12 @@ impl Session {
             return self.notify(Gravity::Info, w().show_all_first, "");
         }
         self.end_tissues();
-        self.selection = super::selection::Selection::Nothing;
+        self.selection = Selection::Nothing;
         self.drawn_stroke = None;
         self.take_tool(Tool::Clay);
     }
 
-    fn switch_stroke(&mut self, index: usize) {
+    pub(super) fn switch_stroke(&mut self, index: usize) {
         let stroke = self.clay().and_then(|clay| clay.strokes.get(index));
         let Some(stroke) = stroke else {
             return;
@@ -341,6 +351,53 @@ impl Session {
             name: String::new(),
         };
         Some((index, Some(edit)))
+    }
+}
+
+/// A stroke with a key of one of its tools elsewhere, subject space; the edit is of the stroke of this index.
+pub fn with_key_at(
+    index: usize,
+    stroke: &ClayStroke,
+    (one, key): (usize, usize),
+    pos: Vec3,
+) -> Edit {
+    let mut new = stroke.clone();
+    if let Some(key) = new.moves.get_mut(one).and_then(|one| one.keys.get_mut(key)) {
+        key.at = thousandths(pos);
+    }
+    changed(index, &new)
+}
+
+/// A stroke without a key of one of its tools; `None` for the last one, as a path has one at least. Its turn goes on to
+/// the next key, so that what is behind stays as it was.
+pub fn without_key(index: usize, stroke: &ClayStroke, (one, key): (usize, usize)) -> Option<Edit> {
+    let mut new = stroke.clone();
+    let keys = &mut new.moves.get_mut(one)?.keys;
+    if keys.len() < 2 || key >= keys.len() {
+        return None;
+    }
+    let gone = keys.remove(key).turn;
+    if let Some(next) = keys.get_mut(key) {
+        next.turn = both_turns(gone, next.turn);
+    }
+    Some(changed(index, &new))
+}
+
+/// A turn and then another, degrees about the axes of the subject. About one axis they add up, beyond half a turn too.
+fn both_turns(first: [i32; 3], second: [i32; 3]) -> [i32; 3] {
+    let [a, b] = [first, second].map(|turn| Vec3::from_array(turn.map(|x| x as f32)));
+    if a.cross(b) == Vec3::ZERO {
+        return (a + b).as_ivec3().to_array();
+    }
+    let [a, b] = [a, b].map(|turn| Quat::from_scaled_axis(turn * (std::f32::consts::PI / 180.0)));
+    degrees(b * a)
+}
+
+fn changed(index: usize, stroke: &ClayStroke) -> Edit {
+    Edit::Set {
+        pointer: format!("/subject/clay/strokes/{index}"),
+        value: stroke.to_value(),
+        name: "Change stroke".to_owned(),
     }
 }
 
@@ -650,6 +707,40 @@ mod tests {
                 .shown()
                 .any(|notice| notice.message.contains("16"))
         );
+    }
+
+    #[test]
+    fn a_key_goes_and_what_is_behind_it_stays() {
+        let key = |turn| ClayKey {
+            at: [0; 3],
+            turn,
+            percent: 100,
+        };
+        let turned = |turns: &[[i32; 3]]| ClayStroke {
+            moves: vec![ClayMove {
+                tool: 0,
+                keys: turns.iter().map(|turn| key(*turn)).collect(),
+                is_straight: true,
+            }],
+            mirror: [false; 3],
+            smooth: None,
+            is_off: false,
+        };
+        let left = |stroke: &ClayStroke, gone: usize| match without_key(3, stroke, (0, gone)) {
+            Some(Edit::Set { pointer, value, .. }) => {
+                assert_eq!(pointer, "/subject/clay/strokes/3");
+                value["turns"].to_string()
+            }
+            other => panic!("{other:?}"),
+        };
+        let about_z = turned(&[[0; 3], [0, 0, 120], [0, 0, 100]]);
+        assert_eq!(left(&about_z, 1), "[0,0,0,0,0,220]");
+        let about_both = turned(&[[90, 0, 0], [0, 90, 0]]);
+        // Half way between the axes, a third of a turn.
+        assert_eq!(left(&about_both, 0), "[69,69,-69]");
+        assert_eq!(without_key(0, &turned(&[[0; 3]]), (0, 0)), None);
+        assert_eq!(without_key(0, &about_z, (0, 7)), None);
+        assert_eq!(without_key(0, &about_z, (1, 0)), None);
     }
 
     /// A stroke that this version does not know, unknown keys and the numbers of steps outlive strokes beside them.

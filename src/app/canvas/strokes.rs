@@ -1,0 +1,76 @@
+//! The selected stroke of a clay over the picture: the way of each of its tools, and its keys to be dragged.
+
+use egui::{Pos2, Shape, Stroke, Ui};
+use glam::{DQuat, DVec3, Vec3};
+
+use super::points::{Dot, Moved, handle, is_hot};
+use super::projection::Projection;
+use crate::app::kit::theme::over_picture as ink;
+use crate::app::session::{Command, Session, with_key_at, without_key};
+use crate::app::words::fill;
+use crate::app::words::sweep::w;
+use crate::document::{ClayKey, ClayMove};
+use crate::math::{Similarity, smooth_path};
+
+/// The lines and the handles. True if one of them is under the pointer or held.
+pub(crate) fn ui(
+    ui: &mut Ui,
+    view: &Projection,
+    session: &Session,
+    commands: &mut Vec<Command>,
+) -> bool {
+    let Some((index, stroke)) = session.selected_stroke() else {
+        return false;
+    };
+    let mut is_over = false;
+    for (t, one) in stroke.moves.iter().enumerate() {
+        let painter = ui.painter_at(view.rect);
+        let line = way(one).into_iter().map(|pos| view.ui_from_subject(pos));
+        if let Some(line) = line.collect::<Option<Vec<Pos2>>>() {
+            for (width, color) in [(4.0, ink::HALO_DARK), (2.0, ink::HANDLE)] {
+                painter.add(Shape::line(line.clone(), Stroke::new(width, color)));
+            }
+        }
+        for (k, key) in one.keys.iter().enumerate() {
+            let at = place(key).as_vec3();
+            let Some(spot) = view.ui_from_subject(at) else {
+                continue;
+            };
+            let name = fill(w().key_of, &[&(k + 1), &(t + 1)]);
+            let dot = Dot::full(&name, ink::HANDLE);
+            let (response, moved) = handle(ui, view, spot, (at, view.back()), &dot);
+            is_over |= is_hot(&response);
+            match moved {
+                Some(Moved::To(pos)) => {
+                    let edit = with_key_at(index, stroke, (t, k), pos);
+                    commands.push(Command::Drag(edit));
+                }
+                Some(Moved::Removed) => {
+                    let edit = without_key(index, stroke, (t, k));
+                    commands.extend(edit.map(Command::Apply));
+                }
+                None => {}
+            }
+        }
+    }
+    is_over
+}
+
+/// Where a key is, subject space.
+fn place(key: &ClayKey) -> DVec3 {
+    DVec3::from_array(key.at.map(f64::from)) / 1000.0
+}
+
+/// The way of a tool's origin, subject space.
+fn way(one: &ClayMove) -> Vec<Vec3> {
+    let poses = one
+        .keys
+        .iter()
+        .map(|key| Similarity::new(1.0, DQuat::IDENTITY, place(key)));
+    let poses: Vec<Similarity> = poses.collect();
+    let poses = match one.is_straight {
+        true => poses,
+        false => smooth_path(&poses),
+    };
+    poses.into_iter().map(|pose| pose.place.as_vec3()).collect()
+}
