@@ -41,10 +41,9 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         outcomes.push(all_ran(&not_run));
         return close(start, outcomes);
     }
-    setup::for_page()?;
-    // Two rows of work beside each other. One builds the page and then tests it in the browser: it draws one page after
-    // the other, and leaves a quarter of two cores idle. The other checks and compiles all other tests, and runs those
-    // that can give way to the browser, whose tests wait for answers.
+    // Two rows of work beside each other. One sets up what builds the page, builds it and then tests it in the browser:
+    // it draws one page after the other, and leaves a quarter of two cores idle. The other checks and compiles all other
+    // tests, and runs those that can give way to the browser, whose tests wait for answers.
     let (sender, receiver) = channel();
     let (mut outcomes, is_compiled, page) = std::thread::scope(move |scope| {
         let page = scope.spawn(move || page_and_browser(&receiver));
@@ -75,10 +74,10 @@ pub(crate) fn test(names: &[String]) -> Outcome {
     close(start, outcomes)
 }
 
-/// Builds the page, waits until the tests are compiled, and runs those of the browser. `is_compiled` tells whether they
-/// could be.
+/// Sets up what the page needs, builds it, waits until the tests are compiled, and runs those of the browser.
+/// `is_compiled` tells whether they could be.
 fn page_and_browser(is_compiled: &Receiver<bool>) -> Vec<Outcome> {
-    let built = page::build_beside();
+    let built = setup::for_page().and_then(|()| page::build_beside());
     let is_built = built.is_ok();
     let mut outcomes = vec![built];
     if is_compiled.recv().unwrap_or(false) && is_built {
