@@ -6,11 +6,12 @@ use std::hint::black_box;
 use glam::{DVec3, Vec3};
 use serde_json::{Value, json};
 
-use super::body::Space;
+use super::error::ClayError;
 use super::mesh::{ClayMesh, Vertex};
 use super::motion::{Motion, Step, is_in};
 use super::refine::Work;
-use super::shaping::{ClayError, Shaping};
+use super::shaping::Shaping;
+use super::space::Space;
 use crate::data::{Limited, median};
 use crate::displace::ToolShape;
 use crate::document::{Clay, ClayKey, ClayMove, ClayStroke, ClayTool};

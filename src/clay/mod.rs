@@ -4,6 +4,7 @@
 mod bench;
 mod body;
 mod check;
+mod error;
 mod field;
 mod mend;
 mod mesh;
@@ -11,18 +12,20 @@ mod motion;
 mod refine;
 mod shaping;
 mod smooth;
+mod space;
 mod start;
 mod start_of_file;
 mod way;
 mod write;
 
 pub use bench::{ClayBench, bench_clay};
-pub use body::{SEGMENT, Space};
+pub use body::SEGMENT;
 pub use check::{Check, LastStroke, MAX_CROSSING, mesh_sha256};
+pub use error::{ClayError, MAX_FILE_TRIANGLES, MAX_START_TRIANGLES};
 pub use motion::LeftOut;
 pub use refine::{MAX_TRIANGLES, Work};
-pub use shaping::{ClayError, Shaped, Shaping};
-pub use start_of_file::{MAX_FILE_TRIANGLES, MAX_START_TRIANGLES};
+pub use shaping::{Shaped, Shaping};
+pub use space::Space;
 pub use way::Way;
 pub use write::{Export, Form};
 

@@ -5,13 +5,13 @@ use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::body::Space;
+use super::error::ClayError;
 use super::mesh::{ClayMesh, Vertex, lengthen, taken};
 use super::motion::{LeftOut, Motion, Step, around, is_in};
 use super::refine::{Carry, MAX_TRIANGLES, Stepping, Work};
 use super::smooth;
+use super::space::Space;
 use super::start;
-use super::start_of_file::{MAX_FILE_TRIANGLES, MAX_START_TRIANGLES};
 use crate::document::{Clay, ClayStart};
 
 /// Steps whose reach is looked at together, and blocks of them.
@@ -21,38 +21,6 @@ const WIDE: usize = 64;
 const MOST_NOTICES: usize = 4;
 /// Rounds in which a starting shape gets edges that strokes would leave as they are.
 const ROUNDS: usize = 8;
-
-/// Why a clay cannot be made.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ClayError {
-    /// Its start is of a kind that this version does not know.
-    #[error("this version makes no clay from \"{0}\"")]
-    UnknownStart(String),
-    /// Its file has not been read.
-    #[error("the clay's file is not there")]
-    NoFile,
-    /// Its file has more triangles than are looked at.
-    #[error(
-        "a clay is made of at most {MAX_FILE_TRIANGLES} triangles of a file, and there are {0}"
-    )]
-    ManyTriangles(usize),
-    /// The triangles of its file do not become few enough.
-    #[error(
-        "a clay begins with at most {MAX_START_TRIANGLES} triangles; of the file's {found} no fewer than {left} describe its shape"
-    )]
-    Irreducible {
-        /// Triangles of the file.
-        found: usize,
-        /// Those that are left.
-        left: usize,
-    },
-    /// It cannot be drawn.
-    #[error("{0}")]
-    NoSurface(String),
-    /// Whoever asked for it asked to stop.
-    #[error("stopped")]
-    Stopped,
-}
 
 /// A clay that is being shaped.
 #[derive(Clone, Debug)]

@@ -2,19 +2,16 @@
 
 use glam::{DVec3, Vec3};
 
-use super::body::Space;
+use super::error::{ClayError, MAX_FILE_TRIANGLES, MAX_START_TRIANGLES};
 use super::mend::Mended;
 use super::mesh::{ClayMesh, Vertex};
 use super::refine::area_normal;
-use super::shaping::{ClayError, Shaping, Still};
+use super::shaping::{Shaping, Still};
 use super::smooth::normal_by_angle;
+use super::space::Space;
 use crate::data::Mesh;
 use crate::document::Clay;
 
-/// Most triangles of a file.
-pub const MAX_FILE_TRIANGLES: usize = 1_000_000;
-/// A mesh of more triangles is reduced.
-pub const MAX_START_TRIANGLES: usize = 200_000;
 /// Triangles no higher than this count as without area, subject units: as fine as places are rounded.
 const FLAT: f64 = 1.0 / (1 << 23) as f64;
 /// Rounds in which triangles without area are looked for, since one hides behind another.

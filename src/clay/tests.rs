@@ -3,9 +3,10 @@
 use glam::{DVec3, Vec3};
 
 use super::check::Check;
+use super::error::ClayError;
 use super::mesh::{ClayMesh, Vertex};
 use super::refine::MAX_TRIANGLES;
-use super::shaping::{ClayError, Shaped, Shaping};
+use super::shaping::{Shaped, Shaping};
 use super::suite::{ball, clay, key, place, stroke, suite};
 use super::way::Way;
 use super::{LeftOut, Space};

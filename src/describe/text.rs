@@ -87,7 +87,15 @@ pub fn describe(
         legend.clone(),
     ];
     sentences.push(object(shown, lang));
-    done(&operations, lang, &mut sentences);
+    match strokes(shown, lang) {
+        Some(shaped) => {
+            sentences.push(shaped);
+            if !operations.is_empty() {
+                done(&operations, lang, &mut sentences);
+            }
+        }
+        None => done(&operations, lang, &mut sentences),
+    }
     drawn(shown, lang, &mut sentences);
     // A figure is flat: it is seen from its front.
     if !shown.is_of_figure() {
@@ -197,6 +205,48 @@ fn object(shown: &Illustration, lang: Lang) -> String {
         ["Object: {0}", "Objekt: {0}", "Objeto: {0}", "对象：{0}"],
         &[&name],
     )
+}
+
+/// How many strokes have shaped a clay, those that are off not counted; `None` for another subject.
+fn strokes(shown: &Illustration, lang: Lang) -> Option<String> {
+    let SubjectRef::Clay(clay) = &shown.subject else {
+        return None;
+    };
+    let count = shown.strokes_shown().unwrap_or(0) as usize;
+    let acting = clay
+        .strokes
+        .iter()
+        .take(count)
+        .filter(|stroke| !stroke.is_off);
+    Some(match acting.count() {
+        0 => {
+            let line = [
+                "No stroke has shaped it yet",
+                "Noch hat kein Strich sie geformt",
+                "Ningún trazo la ha modelado todavía",
+                "尚未经任何笔划塑形，仍是开始时的样子",
+            ];
+            lang.of(line).to_owned()
+        }
+        1 => {
+            let line = [
+                "One stroke has shaped it",
+                "Ein Strich hat sie geformt",
+                "Un trazo la ha modelado",
+                "已由一道笔划塑形，表面始终完整无破损",
+            ];
+            lang.of(line).to_owned()
+        }
+        strokes => lang.fill(
+            [
+                "{0} strokes have shaped it",
+                "{0} Striche haben sie geformt",
+                "{0} trazos la han modelado",
+                "已由 {0} 道笔划塑形，表面始终完整无破损",
+            ],
+            &[&strokes],
+        ),
+    })
 }
 
 /// What the templates do and leave alone. What all of them leave alone is told once.

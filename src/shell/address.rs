@@ -17,8 +17,8 @@ pub(super) fn foreign_host(address: &str) -> Option<String> {
 }
 
 /// The part that makes or reads a document's subject: the makers for a built-in one, readers for one at the page's own
-/// host, the shaper for a clay that begins with no file or with one there; `base` is what relative addresses start from.
-/// None if the reader is to be asked first.
+/// host, the shaper for a clay that begins with no file or with one there; `base` is what relative addresses start
+/// from. None if the reader is to be asked first.
 pub(super) fn part_of(document: &Document, base: &str) -> Option<Part> {
     match &document.illustration().subject {
         SubjectRef::Builtin { name } => Some(Task::Subject(name.clone(), None).part()),

@@ -507,7 +507,7 @@ fn a_clay_is_drawn_as_the_native_program_draws_it() {
     });
 }
 
-/// A clay begins with a file beside the page, or with one that the reader drops: the part that shapes it reads the file.
+/// A clay begins with a file beside the page, or with one that the reader drops: the part that shapes it reads that.
 #[test]
 fn a_clay_of_a_file_is_drawn_as_the_native_program_draws_it() {
     with_browser(BrowserGpu::Software, |session| async move {

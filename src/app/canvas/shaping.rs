@@ -31,7 +31,7 @@ enum Hand {
     Pressed(PendingPick),
     /// The picture could not be asked yet.
     Waits,
-    /// It draws.
+    /// It draws, with the clay that it has touched so far.
     Draws(Vec<Touch>),
 }
 
@@ -279,8 +279,8 @@ fn images(mirror: [bool; 3]) -> Vec<Vec3> {
     all
 }
 
-/// Over the picture while the tool is in hand: what a drag does, form and size of the tool, the mirror across x, and how
-/// to put it away. The panel has the rest.
+/// Over the picture while the tool is in hand: what a drag does, form and size of the tool, the mirror across x, and
+/// how to put it away. The panel has the rest.
 pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
     let (mut inner, width) = head_bar(ui, rect, BAR, "clay");
     let ui = &mut inner;

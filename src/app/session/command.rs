@@ -9,7 +9,6 @@ use super::found::Found;
 use super::library::LibraryCommand;
 use super::mesh_use::MeshUse;
 use super::notices::Gravity;
-use super::shaping::ClayCommand;
 use super::sought::Sought;
 use super::tissues::TissueCommand;
 use super::view::See;

@@ -19,7 +19,7 @@
 //! | `run`, `using`, `surface`, `templates`, `opening`, `starting`, `raw` | what can be done with it |
 //! | `steps`, `playing` | recording the steps of a lesson, and playing them |
 //! | `figure` | making a figure: its regions and handles |
-//! | `shaping` | shaping a clay by hand |
+//! | `clay`, `shaping` | the tool that shapes a clay, and what its strokes become |
 //! | `making`, `painting` | what can be done with tissues |
 //! | `seeking` | the search for a structure by name |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
@@ -27,6 +27,7 @@
 mod bodies;
 pub mod brush;
 pub mod camera;
+mod clay;
 mod clipboard;
 mod clock;
 mod command;
@@ -83,6 +84,7 @@ mod recording_tests;
 mod tests;
 
 pub use self::camera::StandardView;
+pub use self::clay::{ClayCommand, ClayHand, StrokeWay, Touch};
 pub use self::clipboard::{Clipboard, Copied};
 pub use self::command::{Command, GizmoMode, PicturePaper, StepCommand};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
@@ -101,9 +103,7 @@ pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::selection::Selection;
 pub use self::session::{Load, LoadOf, MeshQuestion, STORED_DOCUMENT, Session, Tab};
-pub use self::shaping::{
-    ClayCommand, ClayHand, StrokeWay, Touch, clay_of, with_key_at, without_key,
-};
+pub use self::shaping::{clay_of, with_key_at, without_key};
 pub use self::small_picture::{
     STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,
 };

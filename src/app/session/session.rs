@@ -2,6 +2,7 @@
 //! Other files of this room add what can be done with it.
 
 use super::camera;
+use super::clay::ClayHand;
 use super::clipboard::Clipboard;
 use super::command::{GizmoMode, PicturePaper};
 use super::effect::{Effect, LinkChange};
@@ -10,7 +11,6 @@ use super::library::Library;
 use super::mode::Mode;
 use super::notices::{Gravity, Notices, Offer};
 use super::selection::Selection;
-use super::shaping::ClayHand;
 use super::ticket::Ticket;
 use super::tissues::Tissues;
 use super::tool::Tool;

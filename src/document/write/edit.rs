@@ -187,12 +187,12 @@ pub enum Edit {
     SetLang(String),
     /// Shows another subject. Segments and revision of the subject before it are removed.
     SetSubject(SubjectRef),
-    /// Puts a stroke of a clay before the one of that index (or last). Who shows some of the strokes goes on to show the
-    /// same.
+    /// Puts a stroke of a clay before the one of that index (or last). Who shows some of the strokes goes on to show
+    /// the same.
     AddStroke {
         /// Index of the new stroke after the edit; larger than the number of strokes means last.
         index: usize,
-        /// The stroke.
+        /// What it does, and which tools it moves.
         stroke: ClayStroke,
     },
     /// Removes a stroke of a clay. Who shows some of the strokes goes on to show the same without it.

@@ -18,8 +18,8 @@ use crate::load::{cubic, short, times};
 /// Most lines of one list; what is beyond them is counted.
 const MOST_LINES: usize = 64;
 
-/// Prints what a document holds, as it stands before its first step. A clay is shaped for it; another file than that of a clay is
-/// not opened.
+/// Prints what a document holds, as it stands before its first step. A clay is shaped for it; another file than that of
+/// a clay is not opened.
 ///
 /// # Errors
 /// [`CliError::Subject`] if the clay cannot be made.

@@ -18,8 +18,8 @@ use crate::load::FieldFile;
 thread_local! {
     /// Compiled modules of parts that have run, so that their next workers neither fetch nor compile them.
     static MODULES: RefCell<BTreeMap<Part, JsValue>> = const { RefCell::new(BTreeMap::new()) };
-    /// Workers that wait for a task: those that web/parts.js started while the page's own module was on its way, and one
-    /// that has shaped a clay and has kept what its strokes left.
+    /// Workers that wait for a task: those that web/parts.js started while the page's own module was on its way, and
+    /// one that has shaped a clay and has kept what its strokes left.
     static WAITING: RefCell<Vec<(Part, Worker)>> = const { RefCell::new(Vec::new()) };
     /// Address of worker.js, as the last viewer was given it.
     static KNOWN_ADDRESS: RefCell<String> = const { RefCell::new(String::new()) };

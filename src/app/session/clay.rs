@@ -1,0 +1,172 @@
+//! What an author holds to shape a clay, and what can be done with it, as plain data.
+
+use glam::{Quat, Vec3};
+
+use crate::document::{ClayShape, ClayTool, ToolShape};
+
+/// The sizes that a hand may hold, subject units.
+const SIZES: [f32; 2] = [0.01, 0.5];
+/// The widths of a coating that a hand may hold, subject units.
+const COATS: [f32; 2] = [0.01, 0.5];
+
+/// What a drag over a clay does (spec/sweepers.md, B.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StrokeWay {
+    /// The tool goes with the hand in the plane of the picture.
+    #[default]
+    Move,
+    /// It goes along the surface's normal: up pulls, down pushes.
+    Push,
+    /// It follows what is under the hand.
+    Along,
+    /// It turns about the surface's normal.
+    Turn,
+    /// It grows, and shrinks.
+    Grow,
+    /// What is under the hand is smoothed.
+    Smooth,
+}
+
+impl StrokeWay {
+    /// All ways, in the order of the buttons.
+    pub const ALL: [Self; 6] = [
+        Self::Move,
+        Self::Push,
+        Self::Along,
+        Self::Turn,
+        Self::Grow,
+        Self::Smooth,
+    ];
+
+    /// True if the picture is asked for the surface all along the way of the hand.
+    pub fn follows_surface(self) -> bool {
+        matches!(self, Self::Along | Self::Smooth)
+    }
+}
+
+/// A place on the clay under the hand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Where, subject space.
+    pub pos: Vec3,
+    /// Unit normal out of the clay.
+    pub normal: Vec3,
+}
+
+/// The tool that an author holds, and how it is used.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClayHand {
+    /// What a drag does.
+    pub way: StrokeWay,
+    /// Its form, one of [`ClayHand::FORMS`].
+    pub form: usize,
+    /// Half of its longest side, subject units.
+    pub size: f32,
+    /// Width of its coating, subject units.
+    pub coat: f32,
+    /// How deep it is sunk into the surface: 0 by half, 1 by all of its size, −1 not at all.
+    pub depth: f32,
+    /// For x, y and z: it has a mirror image beyond the middle plane.
+    pub mirror: [bool; 3],
+}
+
+impl Default for ClayHand {
+    fn default() -> Self {
+        Self {
+            way: StrokeWay::Move,
+            form: 0,
+            size: 0.1,
+            coat: 0.1,
+            depth: 0.0,
+            mirror: [true, false, false],
+        }
+    }
+}
+
+impl ClayHand {
+    /// The forms, by the names of [`ToolShape::NAMES`].
+    pub const FORMS: [&'static str; 5] = ["ball", "ellipsoid", "capsule", "box", "torus"];
+    /// Ranges of size and coating.
+    pub const RANGES: [[f32; 2]; 2] = [SIZES, COATS];
+
+    /// The form with its size; lengths are subject units.
+    pub fn shape(&self) -> ToolShape {
+        let size = self.size;
+        let part = |part: f32| rounded(part * size);
+        match Self::FORMS.get(self.form) {
+            Some(&"ellipsoid") => ToolShape::Ellipsoid {
+                radii: Vec3::new(part(1.0), part(0.7), part(0.5)),
+            },
+            Some(&"capsule") => ToolShape::Capsule {
+                radius: part(0.3),
+                length: part(1.4),
+            },
+            Some(&"box") => ToolShape::Box {
+                half: Vec3::splat(part(1.0)),
+                round: part(0.15),
+            },
+            Some(&"torus") => ToolShape::Torus {
+                ring: part(0.75),
+                radius: part(0.25),
+            },
+            _ => ToolShape::Ball { radius: part(1.0) },
+        }
+    }
+
+    /// Where the tool stands over a place of the clay, and how it is turned.
+    pub fn pose(&self, touch: &Touch) -> (Vec3, Quat) {
+        let turn = match self.form {
+            0 => Quat::IDENTITY,
+            _ => Quat::from_rotation_arc(Vec3::Z, touch.normal),
+        };
+        (touch.pos - self.depth * self.size * touch.normal, turn)
+    }
+
+    pub(super) fn tool(&self) -> ClayTool {
+        ClayTool {
+            shape: Some(self.shape()),
+            coat: (f64::from(self.coat) * 1e3).round() / 1e3,
+        }
+    }
+
+    /// Larger or smaller by a step.
+    pub(super) fn resized(&self, larger: bool) -> Self {
+        let factor = if larger { 1.15 } else { 1.0 / 1.15 };
+        Self {
+            size: (self.size * factor).clamp(SIZES[0], SIZES[1]),
+            ..self.clone()
+        }
+    }
+}
+
+/// One thing to do with a clay.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ClayCommand {
+    /// Begins a document with a clay of a built-in shape, and takes a tool in hand.
+    Begin(ClayShape),
+    /// Takes the tool in hand, or puts it away.
+    Toggle,
+    /// Changes the tool in the hand.
+    Hold(ClayHand),
+    /// The way of a hand over the clay, as far as it has come.
+    Draw {
+        /// What the drag does.
+        way: StrokeWay,
+        /// Where the hand was: on the surface where the way follows it, else in the plane of the picture through the
+        /// first place.
+        touches: Vec<Touch>,
+        /// The hand has let go.
+        is_over: bool,
+    },
+    /// Switches the stroke of this index off, or on again.
+    Switch(usize),
+    /// Removes the stroke of this index.
+    Remove(usize),
+    /// Selects the stroke of this index.
+    Select(usize),
+}
+
+/// Three decimals, as a link holds them.
+fn rounded(length: f32) -> f32 {
+    (length * 1e3).round() / 1e3
+}
