@@ -51,6 +51,8 @@ pub struct Shaping {
     full_since: Option<usize>,
     done: usize,
     work: Work,
+    /// No triangle has an edge longer than the detail; false where that is not known.
+    is_fine: bool,
 }
 
 /// The motion in one step.
@@ -105,7 +107,7 @@ impl Shaping {
     /// A clay of these triangles; `None` if they are no surface.
     pub(super) fn of(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>, detail: f64) -> Option<Self> {
         let mesh = ClayMesh::new(vertices, triangles)?;
-        Some(Self {
+        let mut shaping = Self {
             after: mesh.vertices.clone(),
             moved_in: vec![0; mesh.vertices.len()],
             touched: vec![false; mesh.vertices.len()],
@@ -116,7 +118,10 @@ impl Shaping {
             full_since: None,
             done: 0,
             work: Work::default(),
-        })
+            is_fine: false,
+        };
+        shaping.long_triangles();
+        Some(shaping)
     }
 
     /// Looks after all edges until nothing changes, so that a stroke that only carries them leaves them alone.
@@ -285,10 +290,16 @@ impl Shaping {
         }
     }
 
-    /// The triangles that have an edge longer than the detail.
-    fn long_triangles(&self) -> Vec<u32> {
+    /// The triangles that have an edge longer than the detail. Steps split what they move, so that where there was none
+    /// there is none to look for, unless there are too many triangles to split.
+    fn long_triangles(&mut self) -> Vec<u32> {
+        if self.is_fine && self.full_since.is_none() {
+            return Vec::new();
+        }
         let all = 0..self.mesh.triangle_places();
-        all.filter(|t| self.longest(*t).is_some()).collect()
+        let long: Vec<u32> = all.filter(|t| self.longest(*t).is_some()).collect();
+        self.is_fine = long.is_empty();
+        long
     }
 
     /// The longest edge of a triangle, if it is longer than the detail: its square and its half-edge.
