@@ -266,6 +266,7 @@ impl<'a> Sweeping<'a> {
 
     /// Fields that the shader evaluates for a place that no step moves, template space: four for each step and each
     /// image of a tool that reaches it there.
+    #[cfg(feature = "render")]
     pub(crate) fn fields_at(&self, at: Vec3) -> usize {
         let place = self.size * (at.as_dvec3() - 0.5);
         let images = self.images();
