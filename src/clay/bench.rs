@@ -348,8 +348,8 @@ fn stroke(places: &[[i32; 3]]) -> ClayStroke {
     }
 }
 
-/// Strokes of two to four keys that begin at the surface of a ball: every third with turns, every fourth mirrored, every
-/// eighth smooths.
+/// Strokes of two to four keys that begin at the surface of a ball: every third with turns, every fourth mirrored;
+/// every eighth smooths.
 fn random_strokes() -> Vec<ClayStroke> {
     let mut state = SEED;
     let mut draw = |most: i32| {
