@@ -76,6 +76,45 @@ struct Hold {
     turned: DVec3,
 }
 
+impl Hold {
+    const NONE: Self = Self {
+        field: 0.0,
+        gradient: DVec3::ZERO,
+        velocity: DVec3::ZERO,
+        turned: DVec3::ZERO,
+    };
+
+    /// Velocity of the point, and of the normal there, if no other tool has it.
+    fn alone(&self, normal: DVec3) -> (DVec3, DVec3) {
+        let turned = self.turned * self.field - self.gradient * self.velocity.dot(normal);
+        (self.velocity * self.field, turned)
+    }
+}
+
+impl Pose {
+    /// How the tool, or its image, holds a point and the normal there; `None` if it does not reach it.
+    fn hold(&self, form: &Form, image: DVec3, pos: DVec3, normal: DVec3) -> Option<Hold> {
+        let (p, n) = (image * pos, image * normal);
+        let way = p - self.place;
+        if way.length_squared() > self.reach {
+            return None;
+        }
+        let q = (self.turn_back * way) * self.per_scale;
+        let (distance, away) = form.distance(q);
+        let (field, slope) = falloff(distance * self.coats);
+        if field <= 0.0 {
+            return None;
+        }
+        let screw = &self.screw;
+        Some(Hold {
+            field,
+            gradient: image * (self.turn * away) * (slope / self.coat),
+            velocity: image * screw.velocity(p),
+            turned: image * (screw.turn.cross(n) - n * screw.growth),
+        })
+    }
+}
+
 fn pose_of(key: &ClayKey, turn: DQuat) -> Similarity {
     let place = DVec3::from_array(key.at.map(|thousandth| f64::from(thousandth) / 1000.0));
     Similarity::new(f64::from(key.percent) / 100.0, turn, place)
@@ -226,57 +265,28 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The tools that have a place in their reach at a stage of a step, the number of them, and the sum of fields.
-    fn holds(
-        &self,
-        stage: &[Pose],
-        pos: DVec3,
-        normal: DVec3,
-        holds: &mut [Hold; Clay::MAX_AT_ONCE],
-    ) -> usize {
-        let mut count = 0;
-        for image in &self.images {
-            let (p, n) = (*image * pos, *image * normal);
-            for (pose, form) in stage.iter().zip(&self.forms) {
-                let way = p - pose.place;
-                if way.length_squared() > pose.reach || count == holds.len() {
-                    continue;
-                }
-                let q = (pose.turn_back * way) * pose.per_scale;
-                let (distance, away) = form.distance(q);
-                let (field, slope) = falloff(distance * pose.coats);
-                if field <= 0.0 {
-                    continue;
-                }
-                let screw = &pose.screw;
-                holds[count] = Hold {
-                    field,
-                    gradient: *image * (pose.turn * away) * (slope / pose.coat),
-                    velocity: *image * screw.velocity(p),
-                    turned: *image * (screw.turn.cross(n) - n * screw.growth),
-                };
-                count += 1;
-            }
-        }
-        count
-    }
-
     /// Velocity of a place, and of a normal that is carried along: n′ = −(∇V)ᵀ n.
     fn flow(&self, stage: &[Pose], pos: DVec3, normal: DVec3) -> (DVec3, DVec3) {
-        let nothing = Hold {
-            field: 0.0,
-            gradient: DVec3::ZERO,
-            velocity: DVec3::ZERO,
-            turned: DVec3::ZERO,
-        };
-        let mut holds = [nothing; Clay::MAX_AT_ONCE];
-        let count = self.holds(stage, pos, normal, &mut holds);
+        // A tool alone is what most strokes have.
+        if let ([pose], [form], [image]) = (stage, &self.forms[..], &self.images[..]) {
+            let hold = pose.hold(form, *image, pos, normal);
+            return hold.map_or((DVec3::ZERO, DVec3::ZERO), |hold| hold.alone(normal));
+        }
+        let mut holds = [Hold::NONE; Clay::MAX_AT_ONCE];
+        let mut count = 0;
+        for image in &self.images {
+            for (pose, form) in stage.iter().zip(&self.forms) {
+                if count < holds.len()
+                    && let Some(hold) = pose.hold(form, *image, pos, normal)
+                {
+                    holds[count] = hold;
+                    count += 1;
+                }
+            }
+        }
         match &holds[..count] {
             [] => (DVec3::ZERO, DVec3::ZERO),
-            [one] => {
-                let turned = one.turned * one.field - one.gradient * one.velocity.dot(normal);
-                (one.velocity * one.field, turned)
-            }
+            [one] => one.alone(normal),
             several => together(several, normal),
         }
     }

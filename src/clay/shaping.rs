@@ -42,6 +42,8 @@ pub struct Shaping {
     pub(super) start_notices: Vec<String>,
     done: usize,
     work: Work,
+    /// No triangle has an edge longer than the detail; false where that is not known.
+    is_fine: bool,
 }
 
 /// The motion in one step.
@@ -109,6 +111,7 @@ impl Shaping {
             start_notices: Vec::new(),
             done: 0,
             work: Work::default(),
+            is_fine: false,
         }
     }
 
@@ -278,10 +281,16 @@ impl Shaping {
         }
     }
 
-    /// The triangles that have an edge longer than the detail.
-    fn long_triangles(&self) -> Vec<u32> {
+    /// The triangles that have an edge longer than the detail. Steps split what they move, so that where there was none
+    /// there is none to look for, unless there are too many triangles to split.
+    fn long_triangles(&mut self) -> Vec<u32> {
+        if self.is_fine && self.full_since.is_none() {
+            return Vec::new();
+        }
         let all = 0..self.mesh.triangle_places();
-        all.filter(|t| self.longest(*t).is_some()).collect()
+        let long: Vec<u32> = all.filter(|t| self.longest(*t).is_some()).collect();
+        self.is_fine = long.is_empty();
+        long
     }
 
     /// The longest edge of a triangle, if it is longer than the detail: its square and its half-edge.

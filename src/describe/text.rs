@@ -8,7 +8,7 @@ use super::names::{has_patient, segment_in_sentence, subject_in_sentence};
 use super::operations::{Extent, Operation, Ruler, listed, operation_of};
 use super::sight::Sight;
 use super::view::{Sides, sentence};
-use crate::document::{Document, DocumentError, Illustration, MAX_ALT};
+use crate::document::{Document, DocumentError, Illustration, MAX_ALT, SubjectRef};
 
 /// What a description needs besides the document; all of it may be unknown.
 #[derive(Clone, Debug, Default, PartialEq)]

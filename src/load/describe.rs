@@ -113,7 +113,7 @@ impl SubjectSink for Counter {
 }
 
 /// A number as people write it: four decimals at most.
-pub(crate) fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     let text = if x != 0.0 && (x.abs() >= 1e9 || x.abs() < 1e-4) {
         format!("{x:.4e}")
     } else {
@@ -124,7 +124,7 @@ pub(crate) fn short(x: f64) -> String {
 }
 
 /// Three numbers as people write them, with times signs between.
-pub(crate) fn times(v: DVec3) -> String {
+pub fn times(v: DVec3) -> String {
     format!("{} × {} × {}", short(v.x), short(v.y), short(v.z))
 }
 

@@ -55,9 +55,7 @@ mod stream;
 mod subject;
 mod voxels;
 
-pub use describe::{Description, describe, describe_raw};
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) use describe::{short, times};
+pub use describe::{Description, describe, describe_raw, short, times};
 pub use dicom::{is_segmentation, main_name};
 pub use error::{FaultKind, LoadError};
 pub use fault::FileFault;
@@ -65,12 +63,10 @@ pub use field::{FieldFile, FieldUse, is_field, read_field};
 pub use files::{ALL_FILES, FileHandle, FileSet, MemoryFiles, OneFile};
 pub use geometry::orientation_code;
 pub use labels::{LabelFile, read_header, read_label_file, read_labels};
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) use mesh::cubic;
 pub use mesh::{
     Aside, Axes, MAX_TRIANGLES, MeshDescription, MeshError, MeshFile, MeshFormat, MeshOptions,
     MeshOrNot, MeshReport, Origin, PartsMode, Progress, ReadMeshes, Repair, Units, are_mesh_names,
-    describe_mesh, is_mesh_name, mesh_among, mesh_or_not, names_beside, read_mesh,
+    cubic, describe_mesh, is_mesh_name, mesh_among, mesh_or_not, names_beside, read_mesh,
     read_mesh_subject, read_meshes,
 };
 

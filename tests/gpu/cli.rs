@@ -582,7 +582,7 @@ fn the_shaping_of_clay_is_measured_without_an_adapter() {
     for (name, most) in [
         ("field once", 25.0),
         ("ten times as many", 1.3),
-        ("replayed", 1.0),
+        ("replayed", 1.05),
         ("fewest", 1.2),
         ("bytes", 200.0),
     ] {

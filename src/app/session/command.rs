@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::camera::StandardView;
+use super::clay::ClayCommand;
 use super::figure::FigureCommand;
 use super::files::RawCommand;
 use super::found::Found;

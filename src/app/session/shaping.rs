@@ -15,8 +15,8 @@ use super::tool::Tool;
 use crate::app::words::clay::w;
 use crate::app::words::fill;
 use crate::document::{
-    Camera, Clay, ClayKey, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool, Edit,
-    Illustration, SubjectRef, ToolShape,
+    Camera, Clay, ClayKey, ClayMove, ClayStart, ClayStroke, ClayTool, Edit, Illustration,
+    SubjectRef,
 };
 use crate::math::{Similarity, smooth_path};
 
@@ -374,7 +374,7 @@ fn is_near(way: &[Vec3], places: &[Vec3], tolerance: f32) -> bool {
 mod tests {
     use super::*;
     use crate::app::session::{Command, Effect};
-    use crate::document::Document;
+    use crate::document::{ClayShape, Document};
 
     const UP: Touch = Touch {
         pos: Vec3::new(0.2, 0.0, 0.45),

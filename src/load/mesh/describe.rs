@@ -130,7 +130,7 @@ fn surface(measure: &Measure) -> String {
 }
 
 /// A volume in mm³, to a tenth where it is large.
-pub(crate) fn cubic(volume: f64) -> String {
+pub fn cubic(volume: f64) -> String {
     match volume.abs() >= 100.0 && volume.abs() < 1e12 {
         true => format!("{volume:.1} mm³"),
         false => format!("{} mm³", short(volume)),

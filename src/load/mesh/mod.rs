@@ -44,9 +44,7 @@ mod turn;
 mod weld;
 
 pub use beside::{are_mesh_names, is_mesh_name, mesh_among, names_beside};
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) use describe::cubic;
-pub use describe::{MeshDescription, describe_mesh};
+pub use describe::{MeshDescription, cubic, describe_mesh};
 pub use error::MeshError;
 pub use format::MeshFormat;
 pub use input::Progress;
