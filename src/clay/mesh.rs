@@ -132,8 +132,9 @@ impl ClayMesh {
         Some(self)
     }
 
-    /// Half-edges of edges whose two ends another edge has too: all but one edge of such, and none in a triangle of
-    /// another of them, so that all can be split.
+    /// Half-edges of edges that have to be split before edges can be told by their ends: all but one of those that have
+    /// both ends in common, and those between two triangles with the same corners. None is in a triangle of another of
+    /// them, so that all can be split.
     pub(super) fn doubled(&self) -> Vec<u32> {
         let halves = 0..3 * self.triangle_places();
         let is_first = |half: &u32| {
@@ -149,7 +150,14 @@ impl ClayMesh {
         let mut is_used = vec![false; self.triangles.len()];
         let mut doubled = Vec::new();
         for edge in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            for (_, _, half) in &edge[1..] {
+            let is_back_to_back = |half: u32| {
+                let twin = self.twin(half);
+                twin.is_some_and(|twin| self.across(half) == self.across(twin))
+            };
+            for (i, (_, _, half)) in edge.iter().enumerate() {
+                if i == 0 && !is_back_to_back(*half) {
+                    continue;
+                }
                 let sides = [Some(*half), self.twin(*half)].into_iter().flatten();
                 let used: Vec<usize> = sides.map(|side| (side / 3) as usize).collect();
                 if used.iter().all(|triangle| !is_used[*triangle]) {

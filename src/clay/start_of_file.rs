@@ -290,10 +290,10 @@ mod tests {
         let shaped = start.shaped();
         assert_eq!(shaped.space.mm_per_unit, 50.0);
         assert_eq!(shaped.space.middle_mm, DVec3::new(35.0, -10.0, 320.0));
-        assert_eq!(
-            (shaped.positions_mm(), &shaped.triangles),
-            (placed, &triangles)
-        );
+        assert_eq!(shaped.triangles, triangles);
+        for (back, place) in shaped.positions_mm().into_iter().zip(&placed) {
+            assert!(back.distance(*place) < 1e-5, "{back} for {place}");
+        }
         for (pos, normal) in shaped.positions.iter().zip(&shaped.normals) {
             assert!((normal.length() - 1.0).abs() < 1e-6);
             assert!(
@@ -408,13 +408,31 @@ mod tests {
         );
         let found = check(&start.shaped());
         assert!(found.is_two_manifold(), "{}", found.lines());
-        // Two openings through it.
-        assert_eq!((found.border_edges, found.pieces, found.euler), (0, 1, -2));
+        // One can go around a column.
+        assert_eq!((found.border_edges, found.pieces, found.euler), (0, 1, 0));
         let volume = found.volume.unwrap() * 27.0;
         assert!((volume - 10.0).abs() < 1e-4, "{volume}");
         let found = check(&struck(start, pulled_up()));
         assert!(
-            found.is_two_manifold() && found.euler == -2,
+            found.is_two_manifold() && found.euler == 0,
+            "{}",
+            found.lines()
+        );
+    }
+
+    #[test]
+    fn triangles_back_to_back_are_a_surface() {
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+        let start = begin(&mesh_of(positions, vec![[0, 1, 2], [0, 2, 1]]));
+        let found = check(&start.shaped());
+        assert!(
+            found.is_two_manifold() && found.euler == 2,
+            "{}",
+            found.lines()
+        );
+        let found = check(&struck(start, stroke(&[[0, 0, 0], [0, 0, 60]].map(place))));
+        assert!(
+            found.is_two_manifold() && found.euler == 2,
             "{}",
             found.lines()
         );
@@ -505,7 +523,7 @@ mod tests {
         for place in shaped.positions_mm() {
             let out = place.truncate().length() - 100.0;
             let off = (out.hypot(place.z) - 50.0).abs();
-            assert!(off < 0.1, "{off} mm off at {place}");
+            assert!(off < 0.5, "{off} mm off at {place}");
         }
         let mut asked = 0;
         let stopped = Shaping::of_mesh(&Clay::default(), &fine, &mut |_| {
