@@ -21,8 +21,8 @@ const FLAT: f64 = 1.0 / (1 << 23) as f64;
 const FLAT_ROUNDS: usize = 8;
 /// Triangles around a vertex that is merged with another one: with more the work would grow with their square.
 const MAX_FAN: usize = 256;
-/// Rounds in which edges with the same two ends are split: one is enough but for triangles that lie upon each other.
-const DOUBLED_ROUNDS: usize = 16;
+/// Rounds in which edges with the same two ends are split: few are enough but for triangles that lie upon each other.
+const DOUBLED_ROUNDS: usize = 32;
 /// No shape has edges as long as a sixteenth of half of this, subject units: with more nothing more collapses.
 const COARSEST: f64 = 64.0;
 /// A pass that takes a smaller part of the triangles away than this has done what it can with its detail.
