@@ -147,8 +147,9 @@ impl ClayMesh {
         Some(self)
     }
 
-    /// Half-edges of edges whose two ends another edge has too: all but one edge of such, and none in a triangle of
-    /// another of them, so that all can be split.
+    /// Half-edges of edges that have to be split before edges can be told by their ends: all but one of those that have
+    /// both ends in common; where there are none, those between two triangles with the same corners. None is in a
+    /// triangle of another of them, so that all can be split.
     pub(super) fn doubled(&self) -> Vec<u32> {
         let halves = 0..3 * self.triangle_places();
         let is_first = |half: &u32| {
@@ -161,20 +162,31 @@ impl ClayMesh {
         };
         let mut edges: Vec<(u32, u32, u32)> = halves.filter(is_first).map(ends).collect();
         edges.sort_unstable();
+        let by_ends = edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
+        let doubled = self.apart(by_ends.flat_map(|edge| &edge[1..]).map(|edge| edge.2));
+        if !doubled.is_empty() {
+            return doubled;
+        }
+        // Split earlier, these would leave two triangles with the same corners again.
+        let is_back_to_back = |half: &u32| {
+            let twin = self.twin(*half);
+            twin.is_some_and(|twin| self.across(*half) == self.across(twin))
+        };
+        self.apart(edges.iter().map(|edge| edge.2).filter(is_back_to_back))
+    }
+
+    /// Those of some edges that have no triangle in common with one before.
+    fn apart(&self, halves: impl Iterator<Item = u32>) -> Vec<u32> {
         let mut is_used = vec![false; self.triangles.len()];
-        let mut doubled = Vec::new();
-        for edge in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            for (_, _, half) in &edge[1..] {
-                let sides = [Some(*half), self.twin(*half)].into_iter().flatten();
-                let used: Vec<usize> = sides.map(|side| (side / 3) as usize).collect();
-                if used.iter().all(|triangle| !is_used[*triangle]) {
-                    used.into_iter()
-                        .for_each(|triangle| is_used[triangle] = true);
-                    doubled.push(*half);
-                }
+        let mut apart = Vec::new();
+        for half in halves {
+            let sides = || [Some(half), self.twin(half)].into_iter().flatten();
+            if sides().all(|side| !is_used[(side / 3) as usize]) {
+                sides().for_each(|side| is_used[(side / 3) as usize] = true);
+                apart.push(half);
             }
         }
-        doubled
+        apart
     }
 
     pub(super) fn from(&self, half: u32) -> u32 {
