@@ -42,8 +42,8 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         return close(start, outcomes);
     }
     // Two rows of work beside each other. One sets up what builds the page, builds it and then tests it in the browser:
-    // it draws one page after the other, and leaves a quarter of two cores idle. The other checks and compiles all other
-    // tests, and runs those that can give way to the browser, whose tests wait for answers.
+    // it draws one page after the other, and leaves a quarter of two cores idle. The other checks and compiles all
+    // other tests, and runs those that can give way to the browser, whose tests wait for answers.
     let (sender, receiver) = channel();
     let (mut outcomes, is_compiled, page) = std::thread::scope(move |scope| {
         let page = scope.spawn(move || page_and_browser(&receiver));
