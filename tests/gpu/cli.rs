@@ -386,7 +386,12 @@ fn a_clay_is_written_read_again_and_checked() {
     assert_eq!(whole["euler"], 2);
     assert_eq!(whole["border_edges"], 0);
     assert_ne!(whole["sha256"], check(&["--strokes", "0"])["sha256"]);
-    assert!(whole["shortest_edge"].as_f64() > Some(0.05 / 16.0));
+    let first = check(&["--strokes", "1"]);
+    assert!(first["shortest_edge"].as_f64() > Some(0.05 / 16.0));
+    assert!(
+        whole["shortest_edge"].is_null(),
+        "the last stroke does nothing"
+    );
     assert_eq!(
         (&whole["short_edges"], &whole["smoothing_strokes"]),
         (&json!(0), &json!(0))
@@ -700,7 +705,7 @@ fn a_clay_begins_with_a_file() {
     // It is a subject like any other.
     render(&at_src).ok();
     let args = ["probe", text(&at_src), "--object"];
-    let inside = fabrica_with(Path::new("."), &args, b"-0.4,-0.4,0.6\n0.4,0.4,0.4\n")
+    let inside = fabrica_with(Path::new("."), &args, b"-0.47,-0.47,0.6\n0.4,0.4,0.4\n")
         .ok()
         .out;
     let lines: Vec<&str> = inside.lines().collect();
