@@ -293,6 +293,19 @@ pub(crate) fn template_title(template: &PlacedTemplate) -> String {
     }
 }
 
+/// What the form of a tool is called.
+pub(crate) fn tool_shape(shape: &ToolShape) -> &'static str {
+    let w = super::sweep::w();
+    match shape {
+        ToolShape::Ball { .. } => w.ball,
+        ToolShape::Ellipsoid { .. } => w.ellipsoid,
+        ToolShape::Capsule { .. } => w.capsule,
+        ToolShape::Box { .. } => w.block,
+        ToolShape::Torus { .. } => w.torus,
+        ToolShape::Curve { .. } => w.curve,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::set_lang;
@@ -384,18 +397,5 @@ mod tests {
             assert_ne!(name, one.title, "{}", one.name);
         }
         set_lang(Lang::English);
-    }
-}
-
-/// What the form of a tool is called.
-pub(crate) fn tool_shape(shape: &ToolShape) -> &'static str {
-    let w = super::sweep::w();
-    match shape {
-        ToolShape::Ball { .. } => w.ball,
-        ToolShape::Ellipsoid { .. } => w.ellipsoid,
-        ToolShape::Capsule { .. } => w.capsule,
-        ToolShape::Box { .. } => w.block,
-        ToolShape::Torus { .. } => w.torus,
-        ToolShape::Curve { .. } => w.curve,
     }
 }
