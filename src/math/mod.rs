@@ -18,5 +18,5 @@ pub use color::{linear_from_srgb, mix_srgb, srgb_from_linear};
 pub(crate) use linear::Solver;
 pub use number::{hex, plain_f64, round_to};
 pub use placement::Placement;
-pub use polyline::{simplified, winding};
+pub use polyline::{simplified, simplified_by, winding};
 pub use similarity::{Screw, Similarity, smooth_path};

@@ -5,6 +5,15 @@ use glam::{DVec2, Vec2};
 /// The places of a line without those that lie within `tolerance` of the straight way between the others (Douglas and
 /// Peucker, 1973).
 pub fn simplified(points: &[Vec2], tolerance: f32) -> Vec<Vec2> {
+    simplified_by(points, tolerance, away_from)
+}
+
+/// The same for places of any kind; `away` is the distance of a place from the straight way between two others.
+pub fn simplified_by<P: Copy>(
+    points: &[P],
+    tolerance: f32,
+    away: impl Fn(P, P, P) -> f32,
+) -> Vec<P> {
     let mut is_kept = vec![false; points.len()];
     let mut spans = vec![(0, points.len().saturating_sub(1))];
     while let Some((from, to)) = spans.pop() {
@@ -13,7 +22,7 @@ pub fn simplified(points: &[Vec2], tolerance: f32) -> Vec<Vec2> {
                 *is_kept = true;
             }
         }
-        let away = |i: usize| away_from(points[i], points[from], points[to]);
+        let away = |i: usize| away(points[i], points[from], points[to]);
         let farthest = (from + 1..to).map(|i| (away(i), i));
         let farthest = farthest.max_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, at)) = farthest.filter(|(away, _)| *away > tolerance) {

@@ -1,6 +1,7 @@
 //! Pictures of the page beside pictures of the native program.
 
 use super::harness::{Session, Tab};
+use super::server::Server;
 use super::surfaces::{surface_of, surface_within};
 use super::*;
 use fabrica::data::{FieldSamples, Grid, Resources, Subject, Surface, Volume, VolumeBuilder};
@@ -462,6 +463,15 @@ async fn compare_field(session: &Session, native: &mut Native, findings: &mut Fi
     findings.compare("field", &page, &image, &[("/templates/0", plain)]);
 }
 
+/// Of the parts that run in workers only the one that shapes clays was fetched.
+fn assert_only_clay_is_fetched(server: &Server) {
+    assert_eq!(parts::count(server, "fabrica_clay_bg.wasm"), 1);
+    for part in ["subjects", "scans", "meshes", "pictures", "figures"] {
+        let name = format!("fabrica_{part}");
+        assert_eq!(parts::count(server, &name), 0, "no {part} for a clay");
+    }
+}
+
 /// A clay is shaped in a worker by a part of its own, the only one that its link fetches; it is the clay that the
 /// native program shapes.
 #[test]
@@ -475,11 +485,7 @@ fn a_clay_is_drawn_as_the_native_program_draws_it() {
         let tab = session.coarse_viewer(&format!("#{link}"), (300, 420)).await;
         tab.settled().await;
         let server = &session.server;
-        assert_eq!(parts::count(server, "fabrica_clay_bg.wasm"), 1);
-        for part in ["subjects", "scans", "meshes", "pictures", "figures"] {
-            let name = format!("fabrica_{part}");
-            assert_eq!(parts::count(server, &name), 0, "no {part} for a clay");
-        }
+        assert_only_clay_is_fetched(server);
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
         let size = page.dimensions().into();
         let native = Native::open().await;
@@ -524,11 +530,7 @@ fn a_clay_of_a_file_is_drawn_as_the_native_program_draws_it() {
         let link = payload(&json(at_src(), 200));
         let tab = session.coarse_viewer(&format!("#{link}"), (300, 420)).await;
         tab.settled().await;
-        assert_eq!(parts::count(server, "fabrica_clay_bg.wasm"), 1);
-        for part in ["subjects", "scans", "meshes", "pictures", "figures"] {
-            let name = format!("fabrica_{part}");
-            assert_eq!(parts::count(server, &name), 0, "no {part} for a clay");
-        }
+        assert_only_clay_is_fetched(server);
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
         let size = page.dimensions().into();
         let native = Native::open().await;

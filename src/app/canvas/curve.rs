@@ -1,10 +1,11 @@
 //! A template along a curve, in the picture: its line, and its points to be dragged.
 
-use egui::{Shape, Stroke, Ui};
+use egui::Ui;
 use glam::{Vec2 as Flat, Vec3};
 
 use super::points::{Dot, Moved, handle, is_hot};
 use super::projection::Projection;
+use super::ways::paint_way;
 use crate::app::kit::theme::over_picture as ink;
 use crate::app::session::Command;
 use crate::app::words::curve::w;
@@ -42,12 +43,7 @@ pub(crate) fn ui(
             .map(|p| view.ui_from_subject(place(p)))
             .collect();
         let painter = ui.painter_at(view.rect);
-        for (width, color) in [(4.0, ink::HALO_DARK), (2.0, ink::HANDLE)] {
-            painter.add(Shape::line(
-                line.clone().unwrap_or_default(),
-                Stroke::new(width, color),
-            ));
-        }
+        paint_way(&painter, line.unwrap_or_default());
     }
     // In the plane that is bent; where that is seen edge-on, out of the surface and into it.
     let [normal, out] = [Vec3::Y, Vec3::Z].map(|axis| placement.rotate * axis);

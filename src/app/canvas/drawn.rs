@@ -1,17 +1,17 @@
 //! The hand that draws a sweep over the picture: from the tissue where it begins, in the plane of the picture there.
 
-use egui::{PointerButton, Pos2, Response, Shape, Stroke, Ui};
+use egui::{PointerButton, Pos2, Response, Ui};
 use glam::Vec3;
 
 use super::projection::{Projection, pixels_of};
-use crate::app::kit::theme::over_picture as ink;
+use super::ways::paint_way;
 use crate::app::picture::host::Picture;
 use crate::app::session::{Command, Session, Tool};
 use crate::document::TemplateKind;
 use crate::render::PendingPick;
 
 /// Points by which a hand moves at least from one place of its way to the next.
-const STEP: f32 = 3.0;
+pub(crate) const STEP: f32 = 3.0;
 
 /// A gesture under way.
 #[derive(Default)]
@@ -31,11 +31,7 @@ pub(crate) struct DrawnWay {
 impl DrawnWay {
     /// True if a drag on the picture draws, and turns nothing.
     pub(crate) fn takes_drags(session: &Session, ui: &Ui) -> bool {
-        session.tool() == Tool::Place(TemplateKind::Sweep)
-            && ui.input(|i| {
-                let pointer = &i.pointer;
-                !pointer.secondary_down() && !pointer.middle_down() && i.multi_touch().is_none()
-            })
+        session.tool() == Tool::Place(TemplateKind::Sweep) && is_plain(ui)
     }
 
     /// True from the press until the hand has let go.
@@ -129,8 +125,14 @@ impl DrawnWay {
     /// The way of the hand.
     fn paint(&self, ui: &Ui, view: &Projection) {
         let painter = ui.painter_at(view.rect);
-        for (width, color) in [(4.0, ink::HALO_DARK), (2.0, ink::HANDLE)] {
-            painter.add(Shape::line(self.way.clone(), Stroke::new(width, color)));
-        }
+        paint_way(&painter, self.way.clone());
     }
+}
+
+/// One finger or the first button, alone.
+pub(crate) fn is_plain(ui: &Ui) -> bool {
+    ui.input(|i| {
+        let pointer = &i.pointer;
+        !pointer.secondary_down() && !pointer.middle_down() && i.multi_touch().is_none()
+    })
 }

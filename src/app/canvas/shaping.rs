@@ -4,8 +4,10 @@
 use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
 use glam::{Quat, Vec3};
 
+use super::drawn::{STEP, is_plain};
 use super::projection::{Projection, pixels_of};
 use super::tools::head_bar;
+use super::ways::paint_way;
 use crate::app::kit::clay_tool::{form_title, way_title};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, over_picture as ink};
@@ -16,8 +18,6 @@ use crate::app::words::clay::w;
 use crate::app::words::fill;
 use crate::render::{PendingPick, Pick};
 
-/// Points by which a hand moves at least from one place of its way to the next.
-const STEP: f32 = 3.0;
 /// Width of the bar, points.
 const BAR: f32 = 430.0;
 
@@ -44,6 +44,8 @@ pub(crate) struct ShapingHand {
     spots: Vec<Pos2>,
     /// As many of these are touches already.
     told: usize,
+    /// As many touches has the session heard of.
+    touches_told: usize,
     is_over: bool,
     /// The clay under the pointer, on its way, where the pointer was when it was asked for, and the last answer.
     pick: Option<PendingPick>,
@@ -88,7 +90,8 @@ impl ShapingHand {
                 true => StrokeWay::Smooth,
                 false => session.clay_hand.way,
             };
-            (self.spots, self.told, self.is_over) = (begin.0.into_iter().collect(), 0, false);
+            (self.told, self.touches_told, self.is_over) = (0, 0, false);
+            self.spots = begin.0.into_iter().collect();
             self.hand = Hand::Waits;
         }
         let here = response.interact_pointer_pos().filter(|_| !self.is_over);
@@ -101,7 +104,6 @@ impl ShapingHand {
         self.spots.extend(here.filter(is_far));
         self.is_over |= !response.dragged_by(PointerButton::Primary);
         self.find(|pos| ask(picture, pos), view);
-        ui.ctx().request_repaint();
         if !matches!(self.hand, Hand::Draws(_)) {
             return;
         }
@@ -186,6 +188,11 @@ impl ShapingHand {
             return;
         };
         let is_over = self.is_over && !(follows && self.pick.is_some());
+        // A hand that rests changes nothing.
+        if touches.len() == self.touches_told && !is_over {
+            return;
+        }
+        self.touches_told = touches.len();
         commands.push(Command::Clay(ClayCommand::Draw {
             way: self.way,
             touches: touches.clone(),
@@ -202,9 +209,7 @@ impl ShapingHand {
         let painter = ui.painter_at(view.rect);
         let at = match &self.hand {
             Hand::Draws(touches) => {
-                for (width, color) in [(4.0, ink::HALO_DARK), (2.0, ink::HANDLE)] {
-                    painter.add(Shape::line(self.spots.clone(), Stroke::new(width, color)));
-                }
+                paint_way(&painter, self.spots.clone());
                 touches.last().copied()
             }
             _ => self.under,
@@ -236,14 +241,6 @@ impl ShapingHand {
             }
         }
     }
-}
-
-/// One finger or the first button, alone.
-fn is_plain(ui: &Ui) -> bool {
-    ui.input(|i| {
-        let pointer = &i.pointer;
-        !pointer.secondary_down() && !pointer.middle_down() && i.multi_touch().is_none()
-    })
 }
 
 /// The place of the clay that was found, if the clay was.

@@ -1,16 +1,16 @@
 //! The selected stroke of a clay over the picture: the way of each of its tools, and its keys to be dragged.
 
-use egui::{Pos2, Shape, Stroke, Ui};
-use glam::{DQuat, DVec3, Vec3};
+use egui::{Pos2, Ui};
+use glam::Vec3;
 
 use super::points::{Dot, Moved, handle, is_hot};
 use super::projection::Projection;
+use super::ways::paint_way;
 use crate::app::kit::theme::over_picture as ink;
-use crate::app::session::{Command, Session, with_key_at, without_key};
+use crate::app::session::{Command, Session, curve, with_key_at, without_key};
 use crate::app::words::fill;
 use crate::app::words::sweep::w;
 use crate::document::{ClayKey, ClayMove};
-use crate::math::{Similarity, smooth_path};
 
 /// The lines and the handles. True if one of them is under the pointer or held.
 pub(crate) fn ui(
@@ -27,12 +27,10 @@ pub(crate) fn ui(
         let painter = ui.painter_at(view.rect);
         let line = way(one).into_iter().map(|pos| view.ui_from_subject(pos));
         if let Some(line) = line.collect::<Option<Vec<Pos2>>>() {
-            for (width, color) in [(4.0, ink::HALO_DARK), (2.0, ink::HANDLE)] {
-                painter.add(Shape::line(line.clone(), Stroke::new(width, color)));
-            }
+            paint_way(&painter, line);
         }
         for (k, key) in one.keys.iter().enumerate() {
-            let at = place(key).as_vec3();
+            let at = place(key);
             let Some(spot) = view.ui_from_subject(at) else {
                 continue;
             };
@@ -57,20 +55,15 @@ pub(crate) fn ui(
 }
 
 /// Where a key is, subject space.
-fn place(key: &ClayKey) -> DVec3 {
-    DVec3::from_array(key.at.map(f64::from)) / 1000.0
+fn place(key: &ClayKey) -> Vec3 {
+    Vec3::from_array(key.at.map(|thousandths| thousandths as f32 / 1000.0))
 }
 
 /// The way of a tool's origin, subject space.
 fn way(one: &ClayMove) -> Vec<Vec3> {
-    let poses = one
-        .keys
-        .iter()
-        .map(|key| Similarity::new(1.0, DQuat::IDENTITY, place(key)));
-    let poses: Vec<Similarity> = poses.collect();
-    let poses = match one.is_straight {
-        true => poses,
-        false => smooth_path(&poses),
-    };
-    poses.into_iter().map(|pose| pose.place.as_vec3()).collect()
+    let places: Vec<Vec3> = one.keys.iter().map(place).collect();
+    match one.is_straight {
+        true => places,
+        false => curve(&places),
+    }
 }

@@ -1,7 +1,7 @@
 //! The tools of a selected `sweep` over the picture: the way of each, its keys to be dragged, and its outline where it
 //! has come to.
 
-use egui::{Pos2, Shape, Stroke, Ui};
+use egui::{Painter, Pos2, Shape, Stroke, Ui};
 use glam::Vec3;
 
 use super::points::{Dot, Moved, handle, is_hot};
@@ -101,9 +101,14 @@ fn lines_ui(ui: &Ui, view: &Projection, way: &ToolWay, to_ui: &dyn Fn(Vec3) -> O
     }
     let places: Vec<Vec3> = way.poses.iter().map(|pose| pose.at).collect();
     if let Some(line) = drawn(&places) {
-        for (width, color) in [(4.0, ink::HALO_DARK), (2.0, ink::HANDLE)] {
-            painter.add(Shape::line(line.clone(), Stroke::new(width, color)));
-        }
+        paint_way(&painter, line);
+    }
+}
+
+/// A way that a hand can change, over the picture.
+pub(crate) fn paint_way(painter: &Painter, line: Vec<Pos2>) {
+    for (width, color) in [(4.0, ink::HALO_DARK), (2.0, ink::HANDLE)] {
+        painter.add(Shape::line(line.clone(), Stroke::new(width, color)));
     }
 }
 

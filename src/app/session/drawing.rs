@@ -9,7 +9,7 @@ use super::tool::Tool;
 use crate::document::{
     Camera, Edit, MAX_KEYS, PathKey, SweepTool, SweepTools, TemplateKind, ToolShape,
 };
-use crate::math::Placement;
+use crate::math::{Placement, simplified_by};
 
 /// Radius of the tool and width of its coating, parts of what the picture shows across its shorter side.
 const RADIUS: f32 = 0.05;
@@ -110,24 +110,7 @@ fn swept(way: &[Vec3], camera: &Camera) -> Option<(Placement, SweepTools)> {
 pub(super) fn thinned(points: &[Vec3], tolerance: f32) -> Vec<Vec3> {
     let mut tolerance = tolerance;
     loop {
-        let mut kept = vec![false; points.len()];
-        if let [first, .., last] = kept.as_mut_slice() {
-            (*first, *last) = (true, true);
-        }
-        let mut open = vec![(0, points.len().saturating_sub(1))];
-        while let Some((from, to)) = open.pop() {
-            let away = |i: &usize| distance_to(points[*i], points[from], points[to]);
-            let inner = (from + 1..to).max_by(|a, b| away(a).total_cmp(&away(b)));
-            if let Some(farthest) = inner.filter(|i| away(i) > tolerance) {
-                kept[farthest] = true;
-                open.extend([(from, farthest), (farthest, to)]);
-            }
-        }
-        let left: Vec<Vec3> = points
-            .iter()
-            .zip(kept)
-            .filter_map(|(point, is_kept)| is_kept.then_some(*point))
-            .collect();
+        let left = simplified_by(points, tolerance, distance_to);
         if left.len() <= MAX_KEYS {
             return left;
         }

@@ -103,7 +103,7 @@ pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::selection::Selection;
 pub use self::session::{Load, LoadOf, MeshQuestion, STORED_DOCUMENT, Session, Tab};
-pub use self::shaping::{clay_of, with_key_at, without_key};
+pub use self::shaping::{curve, with_key_at, without_key};
 pub use self::small_picture::{
     STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,
 };

@@ -15,8 +15,7 @@ use super::tool::Tool;
 use crate::app::words::clay::w;
 use crate::app::words::fill;
 use crate::document::{
-    Camera, Clay, ClayKey, ClayMove, ClayStart, ClayStroke, ClayTool, Edit, Illustration,
-    SubjectRef,
+    Camera, Clay, ClayKey, ClayMove, ClayStart, ClayStroke, ClayTool, Edit, SubjectRef,
 };
 use crate::math::{Similarity, smooth_path};
 
@@ -38,18 +37,13 @@ const PERCENT: [f32; 2] = [5.0, 2000.0];
 /// Farthest place of a key, subject units.
 const FARTHEST: f32 = 4.0;
 
-/// The clay of an illustration, if its subject is one.
-pub fn clay_of(illustration: &Illustration) -> Option<&Arc<Clay>> {
-    match &illustration.subject {
-        SubjectRef::Clay(clay) => Some(clay),
-        _ => None,
-    }
-}
-
 impl Session {
     /// The clay of the document, if its subject is one.
     pub fn clay(&self) -> Option<&Arc<Clay>> {
-        clay_of(self.illustration())
+        match &self.illustration().subject {
+            SubjectRef::Clay(clay) => Some(clay),
+            _ => None,
+        }
     }
 
     /// The stroke of the clay that is selected, with its index.
@@ -351,7 +345,7 @@ fn few(places: &[Vec3], coat: f32) -> (Vec<Vec3>, bool) {
 }
 
 /// The smooth way through places, as a clay takes it.
-fn curve(keys: &[Vec3]) -> Vec<Vec3> {
+pub fn curve(keys: &[Vec3]) -> Vec<Vec3> {
     let pose = |at: &Vec3| Similarity::new(1.0, DQuat::IDENTITY, at.as_dvec3());
     let poses: Vec<Similarity> = keys.iter().map(pose).collect();
     let way = smooth_path(&poses).into_iter();

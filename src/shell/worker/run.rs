@@ -41,13 +41,11 @@ pub fn end_waiting() {
 
 /// Ends the worker that has shaped a clay and waits for its next stroke.
 fn end_resting() {
-    let is_resting = |(part, _): &(Part, Worker)| *part == Part::Clay;
-    let resting =
-        WAITING.with_borrow_mut(|all| all.extract_if(.., |one| is_resting(one)).collect());
-    let resting: Vec<(Part, Worker)> = resting;
-    for (_, worker) in resting {
-        worker.terminate();
-    }
+    WAITING.with_borrow_mut(|all| {
+        for (_, worker) in all.extract_if(.., |(part, _)| *part == Part::Clay) {
+            worker.terminate();
+        }
+    });
 }
 
 /// How a worker is made.
