@@ -178,18 +178,23 @@ fn shifted(i: u32, q: vec3f, p0: vec4f) -> Displaced {
     let size = templates.items[i].size.xyz;
     let p1 = templates.items[i].params1;
     let held = templates.items[i].held;
+    let first = templates.items[i].curve;
+    var own = vec4f(q, 1.0);
     if (drawn_kinds & DRAWN_CURVES) != 0u {
-        let first = templates.items[i].curve;
         if first != 0u {
-            let own = unbend(first, size, q);
-            let d = displace(kind, own.xyz, size, p0, p1, held);
+            own = unbend(first, size, q);
+        }
+    }
+    // The only call: compilers draw all formulas into each place that asks for them.
+    let d = displace(kind, own.xyz, size, p0, p1, held);
+    if (drawn_kinds & DRAWN_CURVES) != 0u {
+        if first != 0u {
             // If the template does not displace the point, the result is exactly 0, without the rounding of `bend`.
             let is_moved = own.w > 0.5 && any(d.source != own.xyz);
             let by = bend(first, size, d.source) - q;
             return Displaced(select(vec3f(0.0), by, is_moved), select(1.0, d.continuity, own.w > 0.5));
         }
     }
-    let d = displace(kind, q, size, p0, p1, held);
     return Displaced(d.source - q, d.continuity);
 }
 

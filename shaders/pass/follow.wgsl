@@ -72,10 +72,15 @@ fn settled(start: vec3f, wanted: vec3f) -> vec4f {
         // What stayed where it was has no path: there the map is the identity.
         var columns = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
         let h = map_step();
-        let here = map_along(pos, found.path).pos;
-        for (var axis = 0u; axis < 3u; axis++) {
-            let along = select(vec3f(0.0), vec3f(h), vec3u(0u, 1u, 2u) == vec3u(axis));
-            columns[axis] = (map_along(pos + along, found.path).pos - here) / h;
+        var here = pos;
+        for (var place = 0u; place < 4u; place++) {
+            let along = select(vec3f(0.0), vec3f(h), vec3u(1u, 2u, 3u) == vec3u(place));
+            let there = map_along(pos + along, found.path).pos;
+            if place == 0u {
+                here = there;
+            } else {
+                columns[place - 1u] = (there - here) / h;
+            }
         }
         // The inverse, transposed; the identity where the map is flat.
         var inverse = mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
@@ -120,14 +125,17 @@ fn settle(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) 
     let point = group.x;
     let wanted = followed[point].xyz;
     var best = vec4f(wanted, NO_END);
-    // Most tissue stays where it was.
-    if lane == 0u {
-        best = settled(wanted, wanted);
-    }
-    for (var block = lane; block < BLOCKS * BLOCKS * BLOCKS; block += 64u) {
-        let candidate = atomicLoad(&nearest[point * BLOCKS * BLOCKS * BLOCKS + block]);
-        if candidate != 0xffffffffu {
-            let end = settled(cell_center(candidate & ((1u << CELL_BITS) - 1u)), wanted);
+    // The first start is the place at rest, since most tissue stays where it was; then there is one for each block.
+    for (var turn = lane; turn < 64u + BLOCKS * BLOCKS * BLOCKS; turn += 64u) {
+        var start = wanted;
+        var is_start = turn == 0u;
+        if turn >= 64u {
+            let candidate = atomicLoad(&nearest[point * BLOCKS * BLOCKS * BLOCKS + turn - 64u]);
+            start = cell_center(candidate & ((1u << CELL_BITS) - 1u));
+            is_start = candidate != 0xffffffffu;
+        }
+        if is_start {
+            let end = settled(start, wanted);
             if end.w < best.w {
                 best = end;
             }

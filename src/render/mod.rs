@@ -19,6 +19,7 @@ mod stage;
 mod subject;
 
 pub use device::buffers::{result_buffer, storage_buffer, submit_and_read, uniform_buffer};
+pub use device::cases::Cases;
 pub use device::error::RenderError;
 pub use device::gpu::{Gpu, GpuOptions};
 pub use device::kernel::{Binding, Kernel};

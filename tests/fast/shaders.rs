@@ -1,9 +1,8 @@
 //! Every shader program parses and validates with what browsers have, and keeps the rules of the house.
 
 use fabrica::document::TemplateKind;
-use fabrica::render::programs::{
-    self, ALL_KINDS, Assembled, PROGRAMS, Program, Stage, SubjectShader,
-};
+use fabrica::render::Cases;
+use fabrica::render::programs::{self, Assembled, PROGRAMS, Program, Stage, SubjectShader};
 use std::collections::BTreeSet;
 use wgpu::naga;
 
@@ -38,7 +37,7 @@ fn programs_of_kinds() -> impl Iterator<Item = (&'static Program, SubjectShader)
 #[test]
 fn every_program_validates() {
     for (program, kind) in programs_of_kinds() {
-        let text = Assembled::new(program, kind, ALL_KINDS);
+        let text = Assembled::new(program, kind, Cases::ALL);
         let module = check(&text.source).unwrap_or_else(|(line, message)| {
             let place = line.map_or_else(String::new, |line| text.place(line));
             panic!("{} at {place}: {message}", program.name)
@@ -64,7 +63,19 @@ fn every_program_validates() {
     }
 }
 
-/// Programs for documents of some kinds only: whatever the kinds, a program validates and has the same bindings.
+/// No templates; one way of keeping tissue alone; one way of giving way alone.
+fn few_cases() -> impl Iterator<Item = Cases> {
+    (0..9).map(|i| Cases {
+        kinds: 0,
+        align_modes: 1 << (i % 5),
+        gives_way: i > 4,
+        gives_way_late: i == 6,
+        gives_way_by_coordinate: i == 7,
+        moves_as_a_whole: i == 8,
+    })
+}
+
+/// Programs for documents of some cases only: whatever these are, a program validates and has the same bindings.
 #[test]
 fn programs_without_some_kinds_validate() {
     let bindings = |text: &Assembled, what: &str| {
@@ -83,9 +94,11 @@ fn programs_without_some_kinds_validate() {
         used
     };
     for (program, kind) in programs_of_kinds() {
-        let whole = bindings(&Assembled::new(program, kind, ALL_KINDS), program.name);
-        let none = bindings(&Assembled::new(program, kind, 0), program.name);
-        assert_eq!(none, whole, "{} for {kind:?}", program.name);
+        let whole = bindings(&Assembled::new(program, kind, Cases::ALL), program.name);
+        for cases in few_cases() {
+            let left = bindings(&Assembled::new(program, kind, cases), program.name);
+            assert_eq!(left, whole, "{} for {kind:?}, {cases:?}", program.name);
+        }
     }
     for kind in TemplateKind::ALL {
         let name = kind.spec().name;
@@ -106,7 +119,11 @@ fn programs_without_some_kinds_validate() {
             "{name}'s formula is the last in its file"
         );
         let program = programs::ProgramId::Probe.program();
-        let text = Assembled::new(program, SubjectShader::Volume, 1 << kind as u32);
+        let text = Assembled::new(
+            program,
+            SubjectShader::Volume,
+            Cases::of_kinds(1 << kind as u32),
+        );
         bindings(&text, kind.spec().name);
     }
 }
@@ -120,7 +137,7 @@ fn programs_are_written_where_a_folder_is_named() {
         .map_or_else(|| scratch.path().to_owned(), std::path::PathBuf::from);
     std::fs::create_dir_all(&folder).expect("the folder");
     for program in PROGRAMS {
-        let text = Assembled::new(program, SubjectShader::Volume, ALL_KINDS);
+        let text = Assembled::new(program, SubjectShader::Volume, Cases::ALL);
         std::fs::write(folder.join(format!("{}.wgsl", program.name)), &text.source)
             .expect("the program");
         let map: String = (1..=text.source.lines().count())
@@ -148,7 +165,7 @@ fn drawing_uses_no_storage() {
             continue;
         }
         let module =
-            check(&Assembled::new(program, kind, ALL_KINDS).source).expect("validated above");
+            check(&Assembled::new(program, kind, Cases::ALL).source).expect("validated above");
         for (_, global) in module.global_variables.iter() {
             let name = global.name.as_deref().unwrap_or_default();
             assert!(
@@ -213,7 +230,7 @@ fn needs_lines_hold() {
             if files.iter().any(|file| is_other(&file.path)) {
                 continue;
             }
-            let text = Assembled::of(&files, ALL_KINDS);
+            let text = Assembled::of(&files, Cases::ALL);
             check(&text.source).unwrap_or_else(|(line, message)| {
                 let place = line.map_or_else(String::new, |line| text.place(line));
                 panic!("{} with what it needs, at {place}: {message}", file.path)
@@ -227,7 +244,7 @@ fn needs_lines_hold() {
 fn a_missing_need_is_seen() {
     let undecided = programs::files_of("pass/raycast.wgsl", &[]);
     assert!(
-        check(&Assembled::of(&undecided, ALL_KINDS).source).is_err(),
+        check(&Assembled::of(&undecided, Cases::ALL).source).is_err(),
         "somebody has to choose"
     );
     let alone = programs::file("march/value.wgsl").expect("embedded");
@@ -311,7 +328,7 @@ fn bindings_have_comments() {
 #[test]
 fn an_error_names_its_file_and_line() {
     let program = programs::ProgramId::Raycast.program();
-    let text = Assembled::new(program, SubjectShader::Volume, ALL_KINDS);
+    let text = Assembled::new(program, SubjectShader::Volume, Cases::ALL);
     let planted = "let half_dir = normalize(look.key_dir.xyz + to_eye);";
     let broken = text.source.replace(
         planted,

@@ -5,6 +5,7 @@
 pub(crate) mod bare;
 pub(crate) mod bindings;
 pub(crate) mod buffers;
+pub(crate) mod cases;
 pub(crate) mod error;
 pub(crate) mod gpu;
 pub(crate) mod kernel;

@@ -3,9 +3,10 @@
 
 #[cfg(target_arch = "wasm32")]
 use super::bare;
+use super::cases::Cases;
 use super::error::RenderError;
 use super::gpu::Gpu;
-use crate::displace::{shader_constants, without_formula};
+use crate::displace::shader_constants;
 use std::fmt::Write as _;
 use std::sync::LazyLock;
 
@@ -638,15 +639,13 @@ pub struct Assembled {
 }
 
 impl Assembled {
-    /// Puts a program's files together, for documents of these kinds of templates (bit k for kind k, as
-    /// `Templates::drawn_kinds`). Compilers look at a formula wherever it is called before they see that a branch is
-    /// never taken, so in place of the formulas of other kinds stands one that moves nothing.
-    pub fn new(program: &Program, subject: SubjectShader, drawn_kinds: u32) -> Self {
-        Self::of(&program.files(subject), drawn_kinds)
+    /// Puts a program's files together, for documents of these cases.
+    pub fn new(program: &Program, subject: SubjectShader, cases: Cases) -> Self {
+        Self::of(&program.files(subject), cases)
     }
 
     /// Puts files together in the order given.
-    pub fn of(files: &[&'static ShaderFile], drawn_kinds: u32) -> Self {
+    pub fn of(files: &[&'static ShaderFile], cases: Cases) -> Self {
         let (mut source, mut starts, mut line) = (String::new(), Vec::new(), 1);
         for file in files {
             starts.push((line, file.path));
@@ -654,8 +653,8 @@ impl Assembled {
             let text = &super::reload::text_of(file.path, file.source);
             #[cfg(not(all(debug_assertions, not(target_arch = "wasm32"))))]
             let text = file.source;
-            let without = without_formula(file.path, text, drawn_kinds);
-            let text = without.as_deref().unwrap_or(text);
+            let left = cases.leave_out(file.path, text);
+            let text = left.as_deref().unwrap_or(text);
             source.push_str(text);
             source.push('\n');
             line += text.matches('\n').count() + 1;
@@ -672,10 +671,10 @@ impl Assembled {
     }
 }
 
-/// Makes a program's module at once, for documents of these kinds of templates. What the compiler has to say arrives
+/// Makes a program's module at once, for documents of these cases. What the compiler has to say arrives
 /// later in [`Gpu::take_errors`]; tests/shaders.rs sees to it that it has nothing to say.
-pub fn module(gpu: &Gpu, id: ProgramId, drawn_kinds: u32) -> wgpu::ShaderModule {
-    module_for(gpu, id, ANY_SUBJECT, drawn_kinds)
+pub fn module(gpu: &Gpu, id: ProgramId, cases: Cases) -> wgpu::ShaderModule {
+    module_for(gpu, id, ANY_SUBJECT, cases)
 }
 
 /// As [`module`], of a program that asks a subject of this kind what it has at a place.
@@ -683,24 +682,21 @@ pub fn module_for(
     gpu: &Gpu,
     id: ProgramId,
     subject: SubjectShader,
-    drawn_kinds: u32,
+    cases: Cases,
 ) -> wgpu::ShaderModule {
     let program = id.program();
-    module_of(gpu, program, &Assembled::new(program, subject, drawn_kinds))
+    module_of(gpu, program, &Assembled::new(program, subject, cases))
 }
 
 /// For programs that do not ask the subject what it has at a place.
 const ANY_SUBJECT: SubjectShader = SubjectShader::Volume;
-
-/// For programs that serve every document, or move nothing.
-pub const ALL_KINDS: u32 = u32::MAX;
 
 /// Compiles a program.
 ///
 /// # Errors
 /// [`RenderError::Shader`] with `file.wgsl:line` for each message.
 pub async fn compile(gpu: &Gpu, id: ProgramId) -> Result<wgpu::ShaderModule, RenderError> {
-    compile_for(gpu, id, ANY_SUBJECT, ALL_KINDS).await
+    compile_for(gpu, id, ANY_SUBJECT, Cases::ALL).await
 }
 
 /// As [`compile`], of a program that asks a subject of this kind what it has at a place.
@@ -711,10 +707,10 @@ pub async fn compile_for(
     gpu: &Gpu,
     id: ProgramId,
     subject: SubjectShader,
-    drawn_kinds: u32,
+    cases: Cases,
 ) -> Result<wgpu::ShaderModule, RenderError> {
     let program = id.program();
-    let assembled = Assembled::new(program, subject, drawn_kinds);
+    let assembled = Assembled::new(program, subject, cases);
     let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
     let module = module_of(gpu, program, &assembled);
     if let Some(error) = scope.pop().await {
@@ -754,7 +750,7 @@ pub(crate) fn check_programs() -> Result<(), RenderError> {
     use wgpu::naga;
     let each = |program| SubjectShader::ALL.iter().map(move |kind| (program, *kind));
     for (program, kind) in PROGRAMS.iter().flat_map(each) {
-        let text = Assembled::new(program, kind, ALL_KINDS);
+        let text = Assembled::new(program, kind, Cases::ALL);
         let fault = |line: Option<usize>, message: String| {
             let place = line.map_or_else(String::new, |line| text.place(line));
             RenderError::Shader {
@@ -777,8 +773,39 @@ pub(crate) fn check_programs() -> Result<(), RenderError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{PROGRAMS, Program, SubjectShader};
+    use super::super::cases::BODIES;
+    use super::{Cases, PROGRAMS, Program, SubjectShader, file};
+    use crate::displace::TemplateKind;
     use crate::render::device::bare::{length, strip};
+
+    /// What is left out is there, and lines stay where they are.
+    #[test]
+    fn what_is_left_out_is_found() {
+        let none = Cases {
+            kinds: 0,
+            align_modes: 1,
+            gives_way: false,
+            gives_way_late: false,
+            gives_way_by_coordinate: false,
+            moves_as_a_whole: false,
+        };
+        for body in &BODIES {
+            let text = file(body.path).expect("embedded").source;
+            assert!(text.contains(&format!("fn {}(", body.function)));
+            let left = none.leave_out(body.path, text).expect("another text");
+            assert!(left.contains(body.instead), "{}", body.function);
+            assert_eq!(left.lines().count(), text.lines().count(), "{}", body.path);
+            assert_eq!(Cases::ALL.leave_out(body.path, text), None);
+        }
+        let path = "displace/compose.wgsl";
+        let text = file(path).expect("embedded").source;
+        let left = none.leave_out(path, text).expect("another text");
+        assert!(text.contains("displace_bend(q") && !left.contains("displace_bend(q"));
+        assert_eq!(left.lines().count(), text.lines().count());
+        let bends = Cases::of_kinds(1 << TemplateKind::Bend as u32);
+        let left = bends.leave_out(path, text).expect("another text");
+        assert!(left.contains("displace_bend(q") && !left.contains("displace_poke(q"));
+    }
 
     /// The program that visitors get is the one that is tested.
     #[test]

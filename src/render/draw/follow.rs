@@ -106,6 +106,6 @@ impl Follower {
 }
 
 fn pipelines(gpu: &Gpu, key: &RaycastKey, subject: SubjectShader) -> [wgpu::ComputePipeline; 2] {
-    let module = module_for(gpu, ProgramId::Follow, subject, key.drawn_kinds);
+    let module = module_for(gpu, ProgramId::Follow, subject, key.cases());
     ["search", "settle"].map(|name| object_pipeline(gpu, &module, name, key))
 }

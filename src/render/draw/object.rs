@@ -29,8 +29,7 @@ pub(crate) async fn object_samples(
     let pipeline = match probes.made(&key) {
         Some(pipeline) => pipeline,
         None => {
-            let module =
-                compile_for(gpu, ProgramId::Object, subject.shader, key.drawn_kinds).await?;
+            let module = compile_for(gpu, ProgramId::Object, subject.shader, key.cases()).await?;
             probes.get(key, || object_pipeline(gpu, &module, "probe_object", &key))
         }
     };

@@ -3,6 +3,7 @@
 use super::traced::Traced;
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::cases::Cases;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::{Layouts, RAYS_BINDING, pipeline_layout};
 use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, render_pipeline};
@@ -17,7 +18,7 @@ use glam::Vec3;
 #[derive(Debug)]
 pub(crate) struct RaycastPasses {
     /// The modules by program, kind of subject and kinds of templates; each is compiled when it first draws a picture.
-    modules: Pipelines<(ProgramId, SubjectShader, u32), wgpu::ShaderModule>,
+    modules: Pipelines<(ProgramId, SubjectShader, Cases), wgpu::ShaderModule>,
     layout: wgpu::PipelineLayout,
     baked_layout: wgpu::PipelineLayout,
     asked_layout: wgpu::PipelineLayout,
@@ -63,9 +64,9 @@ impl RaycastPasses {
         } else {
             ProgramId::Raycast
         };
-        let kinds = key.drawn_kinds;
-        let make = || module_for(gpu, program, key.subject, kinds);
-        let module = self.modules.get((program, key.subject, kinds), make);
+        let cases = key.cases();
+        let make = || module_for(gpu, program, key.subject, cases);
+        let module = self.modules.get((program, key.subject, cases), make);
         let layout = match key.finds {
             Finds::Pick | Finds::Event => &self.asked_layout,
             _ if key.is_baked => &self.baked_layout,

@@ -1,9 +1,10 @@
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::cases::Cases;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::{Layouts, pipeline_layout};
 use crate::render::device::pipelines::{PipelineParts, render_pass, render_pipeline};
-use crate::render::device::programs::{ALL_KINDS, ProgramId, module};
+use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::OUTPUT_FORMAT;
 use crate::render::pack::gpu_types::Resolve;
 
@@ -18,7 +19,7 @@ impl ResolvePass {
         let parts = PipelineParts {
             label: "resolve",
             layout: &pipeline_layout(gpu, "resolve", &groups),
-            module: &module(gpu, ProgramId::Resolve, ALL_KINDS),
+            module: &module(gpu, ProgramId::Resolve, Cases::ALL),
             entry: "encode",
             constants: &[],
             formats: &[OUTPUT_FORMAT],

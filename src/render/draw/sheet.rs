@@ -3,12 +3,13 @@
 use super::raycast::{MEAN, blend_constant};
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::cases::Cases;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::{Layouts, pipeline_layout};
 use crate::render::device::pipelines::{
     PipelineParts, Pipelines, VertexParts, render_pass, render_pipeline, render_pipeline_of,
 };
-use crate::render::device::programs::{ALL_KINDS, ProgramId, module};
+use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::{LINEAR_FORMAT, Target};
 use crate::render::pack::gpu_types::{Sheet, SheetCorner};
 use crate::render::stage::sheet::SheetBuffers;
@@ -108,7 +109,7 @@ impl SheetPass {
 fn pipelines(gpu: &Gpu, layouts: &Layouts) -> [wgpu::RenderPipeline; 2] {
     let empty = &layouts.empty;
     let groups = [&layouts.frame, empty, empty, &layouts.sheet];
-    let module = module(gpu, ProgramId::Sheet, ALL_KINDS);
+    let module = module(gpu, ProgramId::Sheet, Cases::ALL);
     let parts = PipelineParts {
         label: "sheet",
         layout: &pipeline_layout(gpu, "sheet", &groups),

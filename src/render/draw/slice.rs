@@ -3,6 +3,7 @@
 use super::image::{Image, read_picture};
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::cases::Cases;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::{Layouts, pipeline_layout};
@@ -135,7 +136,7 @@ pub(crate) struct SlicePasses {
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     /// Each is compiled when the first slice comes that is drawn by it.
-    modules: Pipelines<(ProgramId, SubjectShader, u32), wgpu::ShaderModule>,
+    modules: Pipelines<(ProgramId, SubjectShader, Cases), wgpu::ShaderModule>,
     pipelines: Pipelines<SliceKey, wgpu::RenderPipeline>,
 }
 
@@ -170,9 +171,9 @@ impl SlicePasses {
             constants.extend(key.drawn.align_constants());
             program = ProgramId::SliceAligned;
         }
-        let (subject, kinds) = (key.drawn.subject, key.drawn.drawn_kinds);
-        let make = || module_for(gpu, program, subject, kinds);
-        let module = self.modules.get((program, subject, kinds), make);
+        let (subject, cases) = (key.drawn.subject, key.drawn.cases());
+        let make = || module_for(gpu, program, subject, cases);
+        let module = self.modules.get((program, subject, cases), make);
         let (entry, format) = if key.is_read {
             ("read", PICK_FORMAT)
         } else {

@@ -5,10 +5,11 @@ use super::traced::Traced;
 use crate::document::Style;
 use crate::render::device::bindings::entry;
 use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::cases::Cases;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::{Layouts, pipeline_layout};
 use crate::render::device::pipelines::{PipelineParts, Pipelines, render_pass, render_pipeline};
-use crate::render::device::programs::{ALL_KINDS, ProgramId, module};
+use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::LINEAR_FORMAT;
 use crate::render::pack::style::style_uniform;
 use crate::render::subject::textures::SubjectTextures;
@@ -57,7 +58,7 @@ impl StylePass {
             let parts = PipelineParts {
                 label: "style",
                 layout: &pipeline_layout(gpu, "style", &groups),
-                module: &module(gpu, ProgramId::Style, ALL_KINDS),
+                module: &module(gpu, ProgramId::Style, Cases::ALL),
                 entry: "draw_style",
                 constants: &[],
                 formats: &[LINEAR_FORMAT],

@@ -1,3 +1,5 @@
+use super::gpu_types::{CONSTRAIN_COORDINATE, CONSTRAIN_LATE, CONSTRAIN_RIGID};
+use crate::render::device::cases::Cases;
 use crate::render::device::programs::SubjectShader;
 
 /// What a ray march pipeline is made for. Few of them per document: software GPUs run every branch, so what a document
@@ -56,6 +58,19 @@ impl RaycastKey {
     /// True if templates leave tissue alone or give way to it: a longer program.
     pub(crate) fn keeps_tissue(&self) -> bool {
         self.align_mode != 0
+    }
+
+    /// What its program is put together for.
+    pub(crate) fn cases(&self) -> Cases {
+        let has = |way: u32| self.constraints & (1 << way) != 0;
+        Cases {
+            kinds: self.drawn_kinds,
+            align_modes: 1 << self.align_mode,
+            gives_way: self.constraints != 0,
+            gives_way_late: has(CONSTRAIN_LATE),
+            gives_way_by_coordinate: has(CONSTRAIN_COORDINATE),
+            moves_as_a_whole: has(CONSTRAIN_RIGID),
+        }
     }
 
     /// The pipeline constant `has_textures` of march/overrides.wgsl: rays that are asked one by one take pictures as

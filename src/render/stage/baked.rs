@@ -3,6 +3,7 @@
 use crate::math::Aabb;
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::cases::Cases;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::layouts::Layouts;
@@ -37,7 +38,7 @@ impl BakePrograms {
     fn pipeline(&self, gpu: &Gpu, drawn_kinds: u32) -> wgpu::ComputePipeline {
         let constants = [("drawn_kinds", f64::from(drawn_kinds))];
         self.pipelines.get(drawn_kinds, || {
-            let module = module(gpu, ProgramId::Bake, drawn_kinds);
+            let module = module(gpu, ProgramId::Bake, Cases::of_kinds(drawn_kinds));
             compute_pipeline(gpu, &module, "bake", &constants)
         })
     }

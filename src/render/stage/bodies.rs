@@ -2,9 +2,10 @@
 
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::cases::Cases;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::compute_pipeline;
-use crate::render::device::programs::{ALL_KINDS, ProgramId, module};
+use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::volume_texture;
 use crate::render::pack::gpu_types::Bodies;
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
@@ -22,7 +23,7 @@ pub(crate) struct BodyProgram(OnceLock<wgpu::ComputePipeline>);
 impl BodyProgram {
     fn get(&self, gpu: &Gpu) -> &wgpu::ComputePipeline {
         self.0.get_or_init(|| {
-            let module = module(gpu, ProgramId::Bodies, ALL_KINDS);
+            let module = module(gpu, ProgramId::Bodies, Cases::ALL);
             compute_pipeline(gpu, &module, "share_bodies", &[])
         })
     }

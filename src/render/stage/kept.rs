@@ -5,10 +5,11 @@ use super::shares::{KeptShares, Members, SharesPrograms};
 use crate::document::MAX_KEEP_SETS;
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::{submit_and_read, uniform_buffer};
+use crate::render::device::cases::Cases;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
-use crate::render::device::programs::{ALL_KINDS, ProgramId, SubjectShader, module_for};
+use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::device::textures::{read_half_texels, volume_texture};
 use crate::render::pack::gpu_types::{Affine, DistanceJob, Kept, LabelSets, MAX_MOTIONS};
 use crate::render::pack::kept::KeptTissue;
@@ -61,7 +62,7 @@ struct DistancePipelines {
 impl DistancePrograms {
     fn get(&self, gpu: &Gpu, subject: SubjectShader) -> Arc<DistancePipelines> {
         self.pipelines.get(subject, || {
-            let module = module_for(gpu, ProgramId::Distance, subject, ALL_KINDS);
+            let module = module_for(gpu, ProgramId::Distance, subject, Cases::ALL);
             let pipeline = |entry: &str| compute_pipeline(gpu, &module, entry, &[]);
             Arc::new(DistancePipelines {
                 open_blocks: pipeline("open_blocks"),

@@ -2,9 +2,10 @@
 
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::{result_buffer, uniform_buffer};
+use crate::render::device::cases::Cases;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
-use crate::render::device::programs::{ALL_KINDS, ProgramId, SubjectShader, module_for};
+use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
 use crate::render::pack::gpu_types::DistanceJob;
 use crate::render::subject::textures::SubjectTextures;
 use std::sync::Arc;
@@ -29,7 +30,7 @@ struct PartPipelines {
 impl PartPrograms {
     fn get(&self, gpu: &Gpu, subject: SubjectShader) -> Arc<PartPipelines> {
         self.0.get(subject, || {
-            let module = module_for(gpu, ProgramId::Parts, subject, ALL_KINDS);
+            let module = module_for(gpu, ProgramId::Parts, subject, Cases::ALL);
             let pipeline = |entry: &str| compute_pipeline(gpu, &module, entry, &[]);
             Arc::new(PartPipelines {
                 mark: pipeline("mark_parts"),

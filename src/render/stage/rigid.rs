@@ -5,6 +5,7 @@ use super::inputs::Inputs;
 use super::kept::KeptTextures;
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::{result_buffer, uniform_buffer};
+use crate::render::device::cases::Cases;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
 use crate::render::device::programs::{ProgramId, SubjectShader, module_for};
@@ -34,7 +35,7 @@ pub(crate) struct RigidPrograms {
 impl RigidPrograms {
     fn pipeline(&self, gpu: &Gpu, kinds: u32, subject: SubjectShader) -> wgpu::ComputePipeline {
         self.pipelines.get((kinds, subject), || {
-            let module = module_for(gpu, ProgramId::Rigid, subject, kinds);
+            let module = module_for(gpu, ProgramId::Rigid, subject, Cases::of_kinds(kinds));
             compute_pipeline(gpu, &module, "fit", &[("drawn_kinds", f64::from(kinds))])
         })
     }

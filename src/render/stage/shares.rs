@@ -5,9 +5,10 @@ use super::parts::dispatch;
 use crate::data::MOST_SHARED_VOXELS;
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::cases::Cases;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::compute_pipeline;
-use crate::render::device::programs::{ALL_KINDS, ProgramId, module};
+use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::{extent, volume_texture};
 use crate::render::pack::gpu_types::SharesJob;
 use crate::render::pack::kept::KeptTissue;
@@ -38,7 +39,7 @@ struct SharesPipelines {
 impl SharesPrograms {
     fn get(&self, gpu: &Gpu) -> &SharesPipelines {
         self.0.get_or_init(|| {
-            let module = module(gpu, ProgramId::Shares, ALL_KINDS);
+            let module = module(gpu, ProgramId::Shares, Cases::ALL);
             let pipeline = |entry: &str| compute_pipeline(gpu, &module, entry, &[]);
             SharesPipelines {
                 mark_rest: pipeline("mark_rest"),

@@ -10,6 +10,7 @@ use crate::math::Aabb;
 use crate::placed::{max_displacement, reach};
 use crate::render::device::bindings::{encoder, entry};
 use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::cases::Cases;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::{Pipelines, compute_pipeline};
@@ -59,7 +60,7 @@ pub(crate) struct GridPrograms {
 
 impl GridPrograms {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        let module = module(gpu, ProgramId::Grid, 0);
+        let module = module(gpu, ProgramId::Grid, Cases::of_kinds(0));
         let spread = ["spread_x", "spread_y", "spread_z"]
             .map(|entry| pipeline(gpu, &module, entry, 0, false));
         Self {
@@ -70,7 +71,7 @@ impl GridPrograms {
 
     fn fill(&self, gpu: &Gpu, drawn_kinds: u32, has_kept: bool) -> wgpu::ComputePipeline {
         self.fill.get((drawn_kinds, has_kept), || {
-            let module = module(gpu, ProgramId::Grid, drawn_kinds);
+            let module = module(gpu, ProgramId::Grid, Cases::of_kinds(drawn_kinds));
             pipeline(gpu, &module, "fill", drawn_kinds, has_kept)
         })
     }
