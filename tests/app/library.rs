@@ -4,7 +4,14 @@ use super::*;
 use fabrica::app::Shipped;
 use fabrica::document::Illustration;
 
-const EXAMPLES: usize = 43;
+/// How many examples the list has that ships with the program.
+fn examples() -> usize {
+    let list = include_bytes!("../../web/examples/list.json");
+    let list: serde_json::Value = serde_json::from_slice(list).expect("JSON");
+    let count = list["examples"].as_array().expect("examples").len();
+    assert!(count >= 45, "{count} examples");
+    count
+}
 
 /// A document with something placed, so that it counts as work.
 const OWN: &str = r#"{ "fabrica": 1, "title": "My work", "subject": { "builtin": "cube" }, "templates": [ { "kind": "hole" } ] }"#;
@@ -41,13 +48,13 @@ fn examples_are_fetched_when_they_are_looked_at() {
     window.settle();
     let both = [Shipped::Examples, Shipped::ExamplePictures];
     assert_eq!(fetched(&window), both);
-    assert_eq!(offered(&window).len(), EXAMPLES);
+    assert_eq!(offered(&window).len(), examples());
     window.look("examples");
     window.click("Close the examples");
     assert!(offered(&window).is_empty(), "it is closed");
     window.click("Examples");
     assert_eq!(fetched(&window), both, "once is enough");
-    assert_eq!(offered(&window).len(), EXAMPLES);
+    assert_eq!(offered(&window).len(), examples());
 }
 
 fn search(window: &mut Window, text: &str) {
@@ -67,7 +74,7 @@ fn examples_are_searched_and_filtered() {
     let found = offered(&window);
     assert!(!found.is_empty() && found.len() < 6, "{found:?}");
     window.click("Clear the search for examples");
-    assert_eq!(offered(&window).len(), EXAMPLES);
+    assert_eq!(offered(&window).len(), examples());
     window.click("Subject of the examples");
     window.click("Tomato");
     let tomatoes = offered(&window);
@@ -132,7 +139,7 @@ fn keys_reach_every_example() {
     window.press(Key::Enter);
     window.settle();
     let mut reached = Vec::new();
-    for _ in 0..2 * EXAMPLES + 12 {
+    for _ in 0..2 * examples() + 12 {
         window.press(Key::Tab);
         let root = window.harness.root();
         let focused = root.children_recursive().find(|node| node.is_focused());
@@ -293,7 +300,7 @@ fn a_list_that_does_not_come_is_asked_for_again() {
     log.0.borrow_mut().is_offline = false;
     window.click("Try again");
     window.settle();
-    assert_eq!(offered(&window).len(), EXAMPLES);
+    assert_eq!(offered(&window).len(), examples());
 }
 
 #[test]
@@ -312,5 +319,5 @@ fn a_phone_offers_examples_on_the_empty_start() {
     window.click("Close the examples");
     window.click("More");
     window.click("Examples");
-    assert_eq!(offered(&window).len(), EXAMPLES);
+    assert_eq!(offered(&window).len(), examples());
 }
