@@ -145,13 +145,17 @@ fn list_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Comma
                     if widget::icon_button(ui, Icon::Trash, &remove, true).clicked() {
                         commands.push(Command::Clay(ClayCommand::Remove(i)));
                     }
+                    let is_selected = session.selection.stroke() == Some(i);
+                    if is_selected {
+                        shift_ui(ui, i, clay.strokes.len(), commands);
+                    }
                     let note = note_of(clay, stroke);
                     let row = EntryRow {
                         id: ("stroke", i),
                         name: &name,
                         title: &name,
                         note: &note,
-                        is_selected: session.selection.stroke() == Some(i),
+                        is_selected,
                         has_grip: false,
                         group: None,
                         is_shown: Some(!stroke.is_off),
@@ -165,6 +169,20 @@ fn list_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Comma
                 });
             });
         });
+    }
+}
+
+/// Buttons that move the selected stroke in the list, in which the last one stands on top.
+fn shift_ui(ui: &mut Ui, index: usize, count: usize, commands: &mut Vec<Command>) {
+    let buttons = [
+        (Icon::Down, w().earlier, 1, index > 0),
+        (Icon::Up, w().later, -1, index + 1 < count),
+    ];
+    for (icon, name, by, is_enabled) in buttons {
+        let name = fill(name, &[&(index + 1)]);
+        if widget::icon_button(ui, icon, &name, is_enabled).clicked() {
+            commands.push(Command::ShiftSelected(by));
+        }
     }
 }
 

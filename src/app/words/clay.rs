@@ -37,6 +37,8 @@ words! {
         show_all_first: "Strokes are drawn where all of them are shown: put “Shown” to the end first", "Striche zeichnet man, wo alle gezeigt werden: zuerst „Gezeigt“ ans Ende stellen", "Los trazos se dibujan donde se muestran todos: lleve antes «Mostrados» al final", "须显示全部笔划才能绘制：先把“显示”调到最后";
         too_many_tools: "A clay has at most {0} different tools; choose one of those that its strokes use", "Ein Ton hat höchstens {0} verschiedene Werkzeuge; bitte eines wählen, das seine Striche verwenden", "Una arcilla tiene como máximo {0} instrumentos distintos; elija uno de los que usan sus trazos", "一块黏土最多有 {0} 种器械；请选用其笔划已用的一种";
         stroke: "Stroke {0}", "Strich {0}", "Trazo {0}", "笔划 {0}";
+        later: "Move stroke {0} up: it acts later", "Strich {0} nach oben: wirkt später", "Subir el trazo {0}: actúa después", "上移笔划 {0}：更晚起效";
+        earlier: "Move stroke {0} down: it acts earlier", "Strich {0} nach unten: wirkt früher", "Bajar el trazo {0}: actúa antes", "下移笔划 {0}：更早起效";
         remove: "Remove stroke {0}", "Strich {0} entfernen", "Quitar el trazo {0}", "移除笔划 {0}";
         swept: "moves", "bewegt", "mueve", "移动";
         smoothed: "smooths", "glättet", "alisa", "平滑";
