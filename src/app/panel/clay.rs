@@ -61,17 +61,22 @@ fn hand_ui(ui: &mut Ui, hand: &ClayHand, commands: &mut Vec<Command>) {
             *value = *change.value() as f32;
         }
     }
-    let row = NumberRow {
-        name: w().depth,
-        summary: w().depth_hint,
-        value: f64::from(hand.depth) * 100.0,
+    let whole = |(name, summary), value: f32, most: f64, unit| NumberRow {
+        name,
+        summary,
+        value: f64::from(value),
         default: Some(0.0),
-        range: [-100.0, 100.0],
-        unit: " %",
+        range: [-most, most],
+        unit,
         decimals: 0,
     };
-    if let Some(change) = row.ui(ui) {
+    let depth = whole((w().depth, w().depth_hint), hand.depth * 100.0, 100.0, " %");
+    if let Some(change) = depth.ui(ui) {
         new.depth = *change.value() as f32 / 100.0;
+    }
+    let turn = whole((w().angle, w().angle_hint), hand.turn_deg, 180.0, "°");
+    if let Some(change) = turn.ui(ui) {
+        new.turn_deg = *change.value() as f32;
     }
     widget::row(ui, |ui| {
         widget::row_label(ui, w().mirrors, w().mirror_hint);

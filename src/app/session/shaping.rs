@@ -399,6 +399,7 @@ mod tests {
     const UP: Touch = Touch {
         pos: Vec3::new(0.2, 0.0, 0.45),
         normal: Vec3::Z,
+        force: None,
     };
 
     /// Touches along an arc in the plane of the picture.
