@@ -22,7 +22,7 @@ use crate::app::picture::small::OpenPicture;
 use crate::app::services::{MissingDocument, Services};
 use crate::app::session::{
     Command, Effect, Focus, Gravity, Listing, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING,
-    STORED_PICTURE, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket,
+    STORED_PICTURE, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket, Tool,
 };
 use crate::app::words::{self, Lang};
 use crate::assets::{Assets, Bending, SegmentationsExpected, TissueWork, Want};
@@ -558,6 +558,7 @@ impl App {
             || matches!(self.focus, Some(Focus::Search | Focus::Tissues));
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
         let is_sheet_open = self.is_sheet_open();
+        let is_shaping = self.session.tool() == Tool::Clay;
         if !is_typing && !is_sheet_open {
             ui.input(|i| {
                 commands.extend(i.events.iter().filter_map(|event| match event {
@@ -567,7 +568,7 @@ impl App {
                 }));
             });
             // A slow frame may hold the words too: the field is there to take them in this very frame.
-            if let Some(search) = ui.input_mut(|i| take_search(&mut i.events)) {
+            if !is_shaping && let Some(search) = ui.input_mut(|i| take_search(&mut i.events)) {
                 is_typing = true;
                 self.run(search);
             }
@@ -589,6 +590,10 @@ impl App {
             }
             // A slice is scrolled by the keys that order templates.
             if self.slices.has_keyboard && matches!(key, egui::Key::PageUp | egui::Key::PageDown) {
+                continue;
+            }
+            // Held, they size and turn the tool that shapes the clay.
+            if is_shaping && is_plain && matches!(key, egui::Key::F | egui::Key::R) {
                 continue;
             }
             if is_sheet_open && !matches!(shortcut.command, Command::ToggleKeys | Command::Escape) {

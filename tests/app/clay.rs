@@ -274,3 +274,163 @@ fn the_file_that_a_clay_waits_for_answers_it() {
         "nothing was written"
     );
 }
+
+impl Window {
+    /// A clay with a tool of this form in the hand, and the pointer over its middle.
+    fn with_clay_tool(form: usize) -> Self {
+        let json = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05 } } }"#;
+        let mut window = Self::open(DESK, json);
+        window.settle();
+        window.click("Shape the clay");
+        window.run_command(fabrica::app::Command::Clay(ClayCommand::Hold(ClayHand {
+            form,
+            ..ClayHand::default()
+        })));
+        window.harness.hover_at(window.picture_center());
+        window.settle();
+        window
+    }
+
+    /// Draws a short stroke, and gives the tool that it was made by.
+    fn drawn_tool(&mut self) -> fabrica::document::ClayTool {
+        let count = self.strokes().len();
+        self.drag(self.picture_center(), vec2(-40.0, 0.0));
+        self.wait_for_strokes(count + 1);
+        let tool = self.strokes()[count].moves[0].tool;
+        match &self.document().illustration().subject {
+            fabrica::document::SubjectRef::Clay(clay) => clay.tools[tool].clone(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Goes with the pointer while a key is held, and turns the wheel by so many points.
+    fn hold(&mut self, modifiers: Modifiers, key: Key, by: Vec2, wheel: f32) {
+        let from = self.picture_center();
+        self.harness.hover_at(from);
+        self.steps(2);
+        self.harness.event(egui::Event::ModifiersChanged(modifiers));
+        self.harness.key_down(key);
+        self.steps(2);
+        self.harness.hover_at(from + by);
+        self.steps(2);
+        if wheel != 0.0 {
+            self.harness.event(egui::Event::MouseWheel {
+                unit: egui::MouseWheelUnit::Point,
+                delta: vec2(0.0, wheel),
+                phase: egui::TouchPhase::Move,
+                source: egui::MouseWheelSource::Unknown,
+                modifiers,
+            });
+            self.steps(3);
+        }
+        self.harness.key_up(key);
+        self.harness
+            .event(egui::Event::ModifiersChanged(Modifiers::NONE));
+        self.settle();
+    }
+}
+
+#[test]
+fn held_keys_size_the_tool_and_its_coating() {
+    let mut window = Window::with_clay_tool(0);
+    let camera = |window: &Window| window.document().illustration().camera;
+    let before = camera(&window);
+    let radius = |tool: &fabrica::document::ClayTool| match tool.shape {
+        Some(fabrica::document::ToolShape::Ball { radius }) => radius,
+        ref other => panic!("{other:?}"),
+    };
+    let first = window.drawn_tool();
+    window.hold(Modifiers::NONE, Key::F, vec2(30.0, 0.0), 0.0);
+    let larger = window.drawn_tool();
+    assert!(radius(&larger) > radius(&first) + 0.02, "{larger:?}");
+    assert_eq!(larger.coat, first.coat);
+    window.hold(Modifiers::SHIFT, Key::F, vec2(-15.0, 0.0), 0.0);
+    let thinner = window.drawn_tool();
+    assert!(thinner.coat < first.coat - 0.01, "{thinner:?}");
+    assert_eq!(radius(&thinner), radius(&larger));
+    window.hold(Modifiers::NONE, Key::F, Vec2::ZERO, 80.0);
+    let wheeled = window.drawn_tool();
+    assert!(radius(&wheeled) > radius(&larger), "{wheeled:?}");
+    window.hold(Modifiers::SHIFT, Key::F, Vec2::ZERO, 80.0);
+    let coated = window.drawn_tool();
+    assert!(coated.coat > thinner.coat, "{coated:?}");
+    assert_eq!(camera(&window), before, "the view stays");
+    let search = window.harness.query_by_label("Put the tool away");
+    assert!(search.is_some(), "the keys do nothing else");
+}
+
+#[test]
+fn a_held_key_turns_the_tool() {
+    // A box.
+    let mut window = Window::with_clay_tool(3);
+    let mut drawn = || {
+        window.drawn_tool();
+        let turn = window.strokes()[0].moves[0].keys[0].turn;
+        window.undo();
+        window.wait_for_strokes(0);
+        window.hold(Modifiers::NONE, Key::R, vec2(60.0, 0.0), 0.0);
+        let vector = glam::Vec3::from_array(turn.map(|degrees| (degrees as f32).to_radians()));
+        glam::Quat::from_scaled_axis(vector)
+    };
+    let [before, after] = [drawn(), drawn()];
+    let angle = before.angle_between(after).to_degrees();
+    assert!((angle - 30.0).abs() < 2.5, "{angle}: {before} {after}");
+    let angle = window.harness.query_all_by_label_contains("Angle");
+    assert!(angle.count() > 0, "the panel has it");
+}
+
+#[test]
+fn shift_on_the_way_keeps_to_an_axis() {
+    let mut window = Window::with_clay_tool(0);
+    let middle = window.picture_center();
+    window.drag_on(middle, vec2(-40.0, 25.0), 4);
+    window
+        .harness
+        .event(egui::Event::ModifiersChanged(Modifiers::SHIFT));
+    window.steps(2);
+    window.harness.hover_at(middle + vec2(-80.0, 30.0));
+    window.steps(2);
+    window.harness.drop_at(middle + vec2(-80.0, 30.0));
+    window.steps(2);
+    window
+        .harness
+        .event(egui::Event::ModifiersChanged(Modifiers::NONE));
+    window.wait_for_strokes(1);
+    let stroke = window.strokes().remove(0);
+    assert_eq!(stroke.smooth, None);
+    let [first, last] = &stroke.moves[0].keys[..] else {
+        panic!("a straight way: {stroke:?}")
+    };
+    assert!(last.at[0] > first.at[0] + 100, "{stroke:?}");
+    assert!((last.at[2] - first.at[2]).abs() <= 1, "{stroke:?}");
+    // Before the press it smooths.
+    window
+        .harness
+        .event(egui::Event::ModifiersChanged(Modifiers::SHIFT));
+    window.drag(middle, vec2(40.0, 0.0));
+    window.wait_for_strokes(2);
+    assert_eq!(window.strokes()[1].smooth, Some(50));
+}
+
+#[test]
+fn a_stroke_is_moved_in_the_list() {
+    let mut window = Window::open(DESK, PULLED);
+    window.settle();
+    let before = window.document().to_json_compact();
+    let height = |window: &Window, i: usize| window.strokes()[i].moves[0].keys[0].at[2];
+    window.click("Stroke 1");
+    window.settle();
+    window.look("stroke to be moved");
+    window.click("Move stroke 1 up: it acts later");
+    window.settle();
+    assert_eq!([height(&window, 0), height(&window, 1)], [0, 400]);
+    let shown = window.document().illustration().look.strokes;
+    assert_eq!(shown, Some(0), "as many are shown");
+    window.press(Key::PageDown);
+    window.settle();
+    assert_eq!([height(&window, 0), height(&window, 1)], [400, 0]);
+    window.undo();
+    window.undo();
+    window.settle();
+    assert_eq!(window.document().to_json_compact(), before);
+}

@@ -1,10 +1,12 @@
-//! The hand that shapes a clay over the picture: the tool where it would act, the drag under way, and the bar that
-//! holds the tool.
+//! The hand that shapes a clay over the picture: the tool where it would act and as held keys fit it, the drag under
+//! way, and the bar that holds the tool.
 
-use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
+use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
 use glam::{Quat, Vec3};
 
 use super::drawn::{STEP, is_plain};
+use super::fitting::{Fits, Fitting};
+use super::pen::Pen;
 use super::projection::{Projection, pixels_of};
 use super::tools::head_bar;
 use super::ways::paint_way;
@@ -33,6 +35,8 @@ enum Hand {
     Waits,
     /// It draws, with the clay that it has touched so far.
     Draws(Vec<Touch>),
+    /// It is pressed and does nothing until it lets go: the tool was being fitted, or it is a palm.
+    Rests,
 }
 
 /// The hand with the tool, over the picture.
@@ -42,11 +46,21 @@ pub(crate) struct ShapingHand {
     way: StrokeWay,
     /// Where the hand was, points of the window.
     spots: Vec<Pos2>,
-    /// As many of these are touches already.
-    told: usize,
-    /// As many touches has the session heard of.
-    touches_told: usize,
+    /// The surface was asked for under as many of these.
+    asked: usize,
+    /// As many touches has the session heard of, and the last of them.
+    told: Option<(usize, Touch)>,
     is_over: bool,
+    /// Its way is kept to one axis of the picture.
+    is_straight: bool,
+    pen: Pen,
+    /// How hard the pen pressed when the drag began.
+    force: Option<f32>,
+    has_palm: bool,
+    /// A held key fits the tool.
+    fitting: Option<Fitting>,
+    /// The wheel that turned for this has not come to rest yet.
+    is_wheel_turning: bool,
     /// The clay under the pointer, on its way, where the pointer was when it was asked for, and the last answer.
     pick: Option<PendingPick>,
     asked_at: Option<Pos2>,
@@ -54,9 +68,38 @@ pub(crate) struct ShapingHand {
 }
 
 impl ShapingHand {
-    /// True if a drag on the picture shapes, and turns nothing.
-    pub(crate) fn takes_drags(&self, session: &Session, ui: &Ui) -> bool {
-        session.tool() == Tool::Clay && !matches!(self.hand, Hand::Free) && is_plain(ui)
+    /// Hears of touches, before anything is made of them in this frame.
+    pub(crate) fn hear(&mut self, ui: &Ui, session: &Session) {
+        ui.input(|i| self.pen.hear(&i.events, session.now));
+        self.has_palm = session.tool() == Tool::Clay && self.pen.has_palm(session.now);
+    }
+
+    /// True if touches are no gesture of two fingers: one of them is a palm beside a pen.
+    pub(crate) fn has_palm(&self) -> bool {
+        self.has_palm
+    }
+
+    /// True if a drag on the picture shapes, and turns nothing. In its first frame nobody knows yet what is under it.
+    pub(crate) fn takes_drags(&self, session: &Session, ui: &Ui, response: &Response) -> bool {
+        let begins = || response.drag_started_by(PointerButton::Primary);
+        let is_taken = session.tool() == Tool::Clay && self.is_plain(ui);
+        is_taken && (!matches!(self.hand, Hand::Free) || begins())
+    }
+
+    /// True if the wheel fits the tool, and zooms nothing.
+    pub(crate) fn takes_wheel(&self, session: &Session, ui: &Ui) -> bool {
+        let is_fitted = || self.may_fit() && Fits::held(ui).is_some();
+        session.tool() == Tool::Clay && (self.is_wheel_turning || is_fitted())
+    }
+
+    /// One finger, a pen or the first button, alone: a palm does not count.
+    fn is_plain(&self, ui: &Ui) -> bool {
+        is_plain(ui) || self.has_palm
+    }
+
+    /// True if no stroke is under way.
+    fn may_fit(&self) -> bool {
+        matches!(self.hand, Hand::Free | Hand::Rests)
     }
 
     /// True while the picture has to answer.
@@ -74,30 +117,52 @@ impl ShapingHand {
         commands: &mut Vec<Command>,
     ) {
         if session.tool() != Tool::Clay {
-            *self = Self::default();
+            let pen = std::mem::take(&mut self.pen);
+            *self = Self {
+                pen,
+                ..Self::default()
+            };
             return;
         }
+        let is_fitted = self.fit(ui, (response, view), session, commands);
         let pixel = pixels_of(view.rect, size);
         let ask = |picture: &mut Picture, pos: Pos2| picture.pick(pixel(pos), size).ok();
         if let Some(answer) = self.pick.as_mut().and_then(PendingPick::poll_now) {
             self.pick = None;
-            self.under = answer.ok().flatten().and_then(|pick| touch(&pick, view));
+            // The outline of a tool that is being fitted stays where it is.
+            if !is_fitted || self.under.is_none() {
+                self.under = answer.ok().flatten().and_then(|pick| touch(&pick, view));
+            }
             self.follow();
         }
-        if response.drag_started_by(PointerButton::Primary) && is_plain(ui) {
+        let begins = response.drag_started_by(PointerButton::Primary) && self.is_plain(ui);
+        if begins && (is_fitted || self.pen.is_palm_pointing(session.now)) {
+            self.hand = Hand::Rests;
+        } else if begins {
             let begin = ui.input(|i| (i.pointer.press_origin(), i.modifiers.shift));
             self.way = match begin.1 {
                 true => StrokeWay::Smooth,
                 false => session.clay_hand.way,
             };
-            (self.told, self.touches_told, self.is_over) = (0, 0, false);
+            (self.asked, self.told) = (0, None);
+            (self.is_over, self.is_straight) = (false, false);
+            self.force = self.pen.force();
             self.spots = begin.0.into_iter().collect();
             self.hand = Hand::Waits;
         }
-        let here = response.interact_pointer_pos().filter(|_| !self.is_over);
-        if matches!(self.hand, Hand::Free) {
-            self.hover(response, |pos| ask(picture, pos));
+        if matches!(self.hand, Hand::Rests) && !response.dragged_by(PointerButton::Primary) {
+            self.hand = Hand::Free;
+        }
+        if self.may_fit() {
+            if !is_fitted {
+                self.hover(response, |pos| ask(picture, pos));
+            }
             return;
+        }
+        let here = response.interact_pointer_pos().filter(|_| !self.is_over);
+        if !self.is_over {
+            // Before the press Shift smooths.
+            self.is_straight = self.way == StrokeWay::Move && ui.input(|i| i.modifiers.shift);
         }
         let last = self.spots.last().copied();
         let is_far = |pos: &Pos2| last.is_none_or(|last| last.distance(*pos) >= STEP);
@@ -110,12 +175,46 @@ impl ShapingHand {
         let follows = self.way.follows_surface();
         if !follows {
             self.go_on_in_plane(view);
-        } else if self.pick.is_none() && self.told < self.spots.len() {
+        } else if self.pick.is_none() && self.asked < self.spots.len() {
             // A weak device is asked about as many places as it answers.
-            self.told = self.spots.len();
+            self.asked = self.spots.len();
             self.pick = self.spots.last().and_then(|pos| ask(picture, *pos));
         }
         self.tell(follows, commands);
+    }
+
+    /// Fits the tool by the keys that are held. True while one is.
+    fn fit(
+        &mut self,
+        ui: &Ui,
+        (response, view): (&Response, &Projection),
+        session: &Session,
+        commands: &mut Vec<Command>,
+    ) -> bool {
+        let (pos, wheel) = ui.input(|i| (i.pointer.latest_pos(), i.smooth_scroll_delta()));
+        // With Shift the wheel counts as one that scrolls sideways.
+        let wheel = wheel.x + wheel.y;
+        let is_here = self.fitting.is_some() || response.contains_pointer();
+        let fits = Fits::held(ui).filter(|_| self.may_fit() && is_here);
+        let Some((fits, pos)) = fits.zip(pos) else {
+            if self.fitting.take().is_some() {
+                self.asked_at = None;
+            }
+            self.is_wheel_turning &= wheel != 0.0;
+            return false;
+        };
+        let is_same = |fitting: &Fitting| fitting.fits == fits;
+        let fitting = self.fitting.take().filter(is_same);
+        let mut fitting = fitting.unwrap_or_else(|| Fitting::new(fits, &session.clay_hand, pos));
+        fitting.scroll(wheel);
+        self.is_wheel_turning = wheel != 0.0;
+        let at = self.under.map_or(session.camera.target, |under| under.pos);
+        let hand = fitting.fitted(pos, view.points_per_unit(at));
+        self.fitting = Some(fitting);
+        if hand != session.clay_hand {
+            commands.push(Command::Clay(ClayCommand::Hold(hand)));
+        }
+        true
     }
 
     /// The clay under the pointer while nothing is drawn.
@@ -149,13 +248,14 @@ impl ShapingHand {
                 let found = answer.ok().flatten();
                 self.hand = match found.and_then(|pick| touch(&pick, view)) {
                     Some(first) => {
-                        self.told = 1;
-                        Hand::Draws(vec![first])
+                        self.asked = 1;
+                        let force = self.force;
+                        Hand::Draws(vec![Touch { force, ..first }])
                     }
                     None => Hand::Free,
                 };
             }
-            Hand::Free | Hand::Draws(_) => {}
+            Hand::Free | Hand::Rests | Hand::Draws(_) => {}
         }
     }
 
@@ -164,22 +264,40 @@ impl ShapingHand {
         if let (Hand::Draws(touches), Some(under)) = (&mut self.hand, self.under)
             && self.way.follows_surface()
         {
-            touches.push(under);
+            let force = self.pen.force().or(self.force);
+            touches.push(Touch { force, ..under });
+        }
+    }
+
+    /// The way of the hand over the window.
+    fn way_over_window(&self) -> Vec<Pos2> {
+        match self.spots[..] {
+            [first, .., last] if self.is_straight => vec![first, kept_to_axis(first, last)],
+            _ => self.spots.clone(),
         }
     }
 
     /// Takes the way of the hand in the plane of the picture through the first touch.
     fn go_on_in_plane(&mut self, view: &Projection) {
+        let way = self.way_over_window();
         let Hand::Draws(touches) = &mut self.hand else {
             return;
         };
         let Some(first) = touches.first().copied() else {
             return;
         };
-        let new = self.spots.iter().skip(self.told);
-        let places = new.filter_map(|pos| view.on_plane(*pos, first.pos, view.back()));
-        touches.extend(places.map(|pos| Touch { pos, ..first }));
-        self.told = self.spots.len();
+        let mut places = way
+            .iter()
+            .filter_map(|pos| view.on_plane(*pos, first.pos, view.back()));
+        let Some(start) = places.next() else {
+            return;
+        };
+        touches.truncate(1);
+        // The picture is asked by its pixels, which may be coarse: what counts is how far the hand went.
+        touches.extend(places.map(|pos| Touch {
+            pos: first.pos + (pos - start),
+            ..first
+        }));
     }
 
     /// Tells the session how far the way has come.
@@ -188,11 +306,12 @@ impl ShapingHand {
             return;
         };
         let is_over = self.is_over && !(follows && self.pick.is_some());
+        let told = touches.last().map(|last| (touches.len(), *last));
         // A hand that rests changes nothing.
-        if touches.len() == self.touches_told && !is_over {
+        if told == self.told && !is_over {
             return;
         }
-        self.touches_told = touches.len();
+        self.told = told;
         commands.push(Command::Clay(ClayCommand::Draw {
             way: self.way,
             touches: touches.clone(),
@@ -209,7 +328,7 @@ impl ShapingHand {
         let painter = ui.painter_at(view.rect);
         let at = match &self.hand {
             Hand::Draws(touches) => {
-                paint_way(&painter, self.spots.clone());
+                paint_way(&painter, self.way_over_window());
                 touches.last().copied()
             }
             _ => self.under,
@@ -249,7 +368,17 @@ fn touch(pick: &Pick, view: &Projection) -> Option<Touch> {
     pick.object.is_none().then_some(Touch {
         pos: pick.pos_in_subject,
         normal,
+        force: None,
     })
+}
+
+/// A place as far from another, along that axis of the picture along which it is farther away.
+fn kept_to_axis(from: Pos2, to: Pos2) -> Pos2 {
+    let way = to - from;
+    match way.x.abs() >= way.y.abs() {
+        true => pos2(to.x, from.y),
+        false => pos2(from.x, to.y),
+    }
 }
 
 /// A circle about a place, across the line of sight.
@@ -337,5 +466,18 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
     }
     if widget::icon_button(ui, Icon::Close, w().put_away, true).clicked() {
         commands.push(Command::Clay(ClayCommand::Toggle));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_way_is_kept_to_the_axis_that_is_farther() {
+        let from = pos2(10.0, 20.0);
+        assert_eq!(kept_to_axis(from, pos2(40.0, 5.0)), pos2(40.0, 20.0));
+        assert_eq!(kept_to_axis(from, pos2(0.0, -90.0)), pos2(10.0, -90.0));
+        assert_eq!(kept_to_axis(from, from), from);
     }
 }

@@ -173,6 +173,7 @@ impl Viewport {
         self.id = Some(id);
         self.announce(&response, session);
 
+        self.shaping.hear(ui, session);
         let camera = self.gestures(
             ui,
             &response,
@@ -353,12 +354,12 @@ impl Viewport {
         let mut camera = session.camera;
         let is_painting = FigureCanvas::takes_drags(session, ui)
             || DrawnWay::takes_drags(session, ui)
-            || self.shaping.takes_drags(session, ui)
+            || self.shaping.takes_drags(session, ui, response)
             || session.tool().ball().is_some()
                 && ui.input(|i| !i.pointer.secondary_down() && !i.pointer.middle_down());
         let touch = ui
             .input(|i| i.multi_touch())
-            .filter(|touch| view.rect.contains(touch.center_pos));
+            .filter(|touch| view.rect.contains(touch.center_pos) && !self.shaping.has_palm());
         if let Some(touch) = touch {
             camera::zoom(&mut camera, touch.zoom_delta);
             projection::pan(&mut camera, view, touch.translation_delta);
@@ -386,7 +387,8 @@ impl Viewport {
                 camera::orbit(&mut camera, glam::vec2(turn.x, turn.y));
             }
         }
-        if response.contains_pointer() && touch.is_none() {
+        let is_free = touch.is_none() && !self.shaping.takes_wheel(session, ui);
+        if response.contains_pointer() && is_free {
             let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
             if wheel != 0.0 {
                 camera::zoom(&mut camera, (wheel * ZOOM_PER_POINT).exp());

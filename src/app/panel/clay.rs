@@ -61,17 +61,22 @@ fn hand_ui(ui: &mut Ui, hand: &ClayHand, commands: &mut Vec<Command>) {
             *value = *change.value() as f32;
         }
     }
-    let row = NumberRow {
-        name: w().depth,
-        summary: w().depth_hint,
-        value: f64::from(hand.depth) * 100.0,
+    let whole = |(name, summary), value: f32, most: f64, unit| NumberRow {
+        name,
+        summary,
+        value: f64::from(value),
         default: Some(0.0),
-        range: [-100.0, 100.0],
-        unit: " %",
+        range: [-most, most],
+        unit,
         decimals: 0,
     };
-    if let Some(change) = row.ui(ui) {
+    let depth = whole((w().depth, w().depth_hint), hand.depth * 100.0, 100.0, " %");
+    if let Some(change) = depth.ui(ui) {
         new.depth = *change.value() as f32 / 100.0;
+    }
+    let turn = whole((w().angle, w().angle_hint), hand.turn_deg, 180.0, "°");
+    if let Some(change) = turn.ui(ui) {
+        new.turn_deg = *change.value() as f32;
     }
     widget::row(ui, |ui| {
         widget::row_label(ui, w().mirrors, w().mirror_hint);
@@ -145,13 +150,17 @@ fn list_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Comma
                     if widget::icon_button(ui, Icon::Trash, &remove, true).clicked() {
                         commands.push(Command::Clay(ClayCommand::Remove(i)));
                     }
+                    let is_selected = session.selection.stroke() == Some(i);
+                    if is_selected {
+                        shift_ui(ui, i, clay.strokes.len(), commands);
+                    }
                     let note = note_of(clay, stroke);
                     let row = EntryRow {
                         id: ("stroke", i),
                         name: &name,
                         title: &name,
                         note: &note,
-                        is_selected: session.selection.stroke() == Some(i),
+                        is_selected,
                         has_grip: false,
                         group: None,
                         is_shown: Some(!stroke.is_off),
@@ -165,6 +174,20 @@ fn list_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Comma
                 });
             });
         });
+    }
+}
+
+/// Buttons that move the selected stroke in the list, in which the last one stands on top.
+fn shift_ui(ui: &mut Ui, index: usize, count: usize, commands: &mut Vec<Command>) {
+    let buttons = [
+        (Icon::Down, w().earlier, 1, index > 0),
+        (Icon::Up, w().later, -1, index + 1 < count),
+    ];
+    for (icon, name, by, is_enabled) in buttons {
+        let name = fill(name, &[&(index + 1)]);
+        if widget::icon_button(ui, icon, &name, is_enabled).clicked() {
+            commands.push(Command::ShiftSelected(by));
+        }
     }
 }
 

@@ -6,13 +6,13 @@ use super::shortcuts::{Shortcut, shortcuts};
 use crate::app::kit::dialog;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::session::Command;
-use crate::app::words::authoring;
 use crate::app::words::keys::w;
 use crate::app::words::slices;
+use crate::app::words::{authoring, clay};
 
 /// What the mouse and fingers do in the picture.
-fn gestures() -> [(&'static str, &'static str); 11] {
-    let w = w();
+fn gestures() -> [(&'static str, &'static str); 13] {
+    let (w, c) = (w(), clay::w());
     [
         (w.drag, w.turn_object),
         (w.pan, w.pan_does),
@@ -25,6 +25,8 @@ fn gestures() -> [(&'static str, &'static str); 11] {
         (w.shift_handle, authoring::w().alone),
         (w.alt_drag, w.alt_drag_does),
         (w.ball, w.ball_does),
+        (c.key_size, c.key_size_does),
+        (c.key_turn, c.key_turn_does),
     ]
 }
 

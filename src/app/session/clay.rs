@@ -51,6 +51,8 @@ pub struct Touch {
     pub pos: Vec3,
     /// Unit normal out of the clay.
     pub normal: Vec3,
+    /// How hard a pen presses there, 0 to 1; `None` of what tells no force.
+    pub force: Option<f32>,
 }
 
 /// The tool that an author holds, and how it is used.
@@ -66,6 +68,8 @@ pub struct ClayHand {
     pub coat: f32,
     /// How deep it is sunk into the surface: 0 by half, 1 by all of its size, −1 not at all.
     pub depth: f32,
+    /// Its turn about its own z axis, which stands along the normal, degrees from −180 to 180.
+    pub turn_deg: f32,
     /// For x, y and z: it has a mirror image beyond the middle plane.
     pub mirror: [bool; 3],
 }
@@ -78,6 +82,7 @@ impl Default for ClayHand {
             size: 0.1,
             coat: 0.1,
             depth: 0.0,
+            turn_deg: 0.0,
             mirror: [true, false, false],
         }
     }
@@ -113,13 +118,27 @@ impl ClayHand {
         }
     }
 
-    /// Where the tool stands over a place of the clay, and how it is turned.
+    /// Where the tool stands over a place of the clay, and how it is turned. The form of index 0, a ball, is the same
+    /// however it is turned.
     pub fn pose(&self, touch: &Touch) -> (Vec3, Quat) {
+        let own = || Quat::from_rotation_z(self.turn_deg.to_radians());
         let turn = match self.form {
             0 => Quat::IDENTITY,
-            _ => Quat::from_rotation_arc(Vec3::Z, touch.normal),
+            _ => Quat::from_rotation_arc(Vec3::Z, touch.normal) * own(),
         };
-        (touch.pos - self.depth * self.size * touch.normal, turn)
+        let depth = self.depth_at(touch.force);
+        (touch.pos - depth * self.size * touch.normal, turn)
+    }
+
+    /// How deep the tool is sunk by a pen that presses so hard: as is set at one half, not at all without pressure, by
+    /// all of its size with all of it.
+    fn depth_at(&self, force: Option<f32>) -> f32 {
+        let Some(force) = force else {
+            return self.depth;
+        };
+        let part = 2.0 * force.clamp(0.0, 1.0) - 1.0;
+        let end = if part < 0.0 { -1.0 } else { 1.0 };
+        self.depth + part.abs() * (end - self.depth)
     }
 
     pub(super) fn tool(&self) -> ClayTool {
@@ -132,8 +151,29 @@ impl ClayHand {
     /// Larger or smaller by a step.
     pub(super) fn resized(&self, larger: bool) -> Self {
         let factor = if larger { 1.15 } else { 1.0 / 1.15 };
+        self.with_size(self.size * factor)
+    }
+
+    /// The same of another size, as near to it as a hand may hold one.
+    pub fn with_size(&self, size: f32) -> Self {
         Self {
-            size: (self.size * factor).clamp(SIZES[0], SIZES[1]),
+            size: size.clamp(SIZES[0], SIZES[1]),
+            ..self.clone()
+        }
+    }
+
+    /// The same with another coating, as near to it as a hand may hold one.
+    pub fn with_coat(&self, coat: f32) -> Self {
+        Self {
+            coat: coat.clamp(COATS[0], COATS[1]),
+            ..self.clone()
+        }
+    }
+
+    /// The same turned by so many degrees in all, in whole ones; beyond half a turn it goes on from the other end.
+    pub fn with_turn(&self, turn_deg: f32) -> Self {
+        Self {
+            turn_deg: (turn_deg.round() + 180.0).rem_euclid(360.0) - 180.0,
             ..self.clone()
         }
     }
@@ -169,4 +209,56 @@ pub enum ClayCommand {
 /// Three decimals, as a link holds them.
 fn rounded(length: f32) -> f32 {
     (length * 1e3).round() / 1e3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pen_sets_how_deep_the_tool_is_sunk() {
+        let hand = ClayHand {
+            depth: 0.4,
+            ..ClayHand::default()
+        };
+        let depths = [
+            (None, 0.4),
+            (Some(0.5), 0.4),
+            (Some(0.0), -1.0),
+            (Some(1.0), 1.0),
+            (Some(0.25), -0.3),
+            (Some(7.0), 1.0),
+        ];
+        for (force, depth) in depths {
+            let touch = Touch {
+                pos: Vec3::ZERO,
+                normal: Vec3::Z,
+                force,
+            };
+            let sunk = -hand.pose(&touch).0.z / hand.size;
+            assert!((sunk - depth).abs() < 1e-5, "{force:?}: {sunk}");
+        }
+    }
+
+    #[test]
+    fn a_tool_is_turned_about_the_normal() {
+        let touch = Touch {
+            pos: Vec3::ZERO,
+            normal: Vec3::X,
+            force: None,
+        };
+        let ball = ClayHand::default().with_turn(30.0);
+        assert_eq!(ball.pose(&touch).1, Quat::IDENTITY);
+        let [plain, turned] = [0.0, 90.0].map(|turn_deg| {
+            let form = 3;
+            let hand = ClayHand {
+                form,
+                ..ClayHand::default()
+            };
+            hand.with_turn(turn_deg).pose(&touch).1
+        });
+        assert!((turned * Vec3::Z).abs_diff_eq(Vec3::X, 1e-5), "it stands");
+        assert!((turned * Vec3::X).abs_diff_eq(plain * Vec3::Y, 1e-5));
+        assert_eq!(ball.with_turn(-270.4).turn_deg, 90.0);
+    }
 }

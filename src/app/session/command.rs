@@ -130,7 +130,8 @@ pub enum Command {
     TurnTo(Sought, Option<Site>),
     /// Shows or hides the selected template or object.
     ToggleSelected,
-    /// Makes the selected template act earlier (`-1`) or later (`1`); moves the selected object in its list.
+    /// Makes the selected template act earlier (`-1`) or later (`1`); moves the selected object or stroke
+    /// up or down in its list.
     ShiftSelected(i8),
     /// Adds to the main parameter of the selected template, in hundredths of its range. Pushes the selected object
     /// towards its working end, in hundredths of its size.

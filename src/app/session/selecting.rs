@@ -114,17 +114,28 @@ impl Session {
         self.apply(&edit, false);
     }
 
-    /// Moves what is selected in its list by so many places. The selection goes with it.
+    /// Moves what is selected down in its list by so many places, or up. The selection goes with it.
     pub(super) fn shift_selected(&mut self, by: i8) {
         if self.view.is_figure() {
             return self.shift_of_figure(by);
         }
-        let moved = |from: usize, count: usize| {
+        let moved_by = |by: i8, from: usize, count: usize| {
             let to = from.saturating_add_signed(isize::from(by));
             Some(to).filter(|to| *to != from && *to < count)
         };
+        let moved = |from: usize, count: usize| moved_by(by, from, count);
         let (edit, selection) = match self.selection {
-            Selection::Nothing | Selection::Stroke(_) => return,
+            Selection::Nothing => return,
+            Selection::Stroke(from) => {
+                // The last one stands on top of the list.
+                let count = self.clay().map_or(0, |clay| clay.strokes.len());
+                let to = moved_by(by.saturating_neg(), from, count);
+                let edit = to.and_then(|to| Some((self.moved_stroke(from, to)?, to)));
+                let Some((edit, to)) = edit else {
+                    return;
+                };
+                (edit, Selection::Stroke(to))
+            }
             Selection::Template(from) => {
                 let Some(to) = moved(from, self.template_count()) else {
                     return;

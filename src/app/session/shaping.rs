@@ -19,8 +19,9 @@ use crate::document::{
 };
 use crate::math::{Similarity, smooth_path};
 
-/// Where the tools of a clay stand in a document.
+/// Where the tools and the strokes of a clay stand in a document.
 const TOOLS: &str = "/subject/clay/tools";
+const STROKES: &str = "/subject/clay/strokes";
 /// How far the path may be off the gesture: a part of the coating, and subject units (spec/sweepers.md, B.3).
 const OFF_COAT: f32 = 1.0 / 16.0;
 const OFF_LEAST: f32 = 0.002;
@@ -34,6 +35,8 @@ const TURN_OF_KEY: f32 = 120.0;
 const DOUBLES: f32 = 0.25;
 /// Sizes of keys, per cent.
 const PERCENT: [f32; 2] = [5.0, 2000.0];
+/// Longest turn of a key, degrees; rounding its parts may add one.
+const LONGEST_TURN: f32 = 178.0;
 /// Farthest place of a key, subject units.
 const FARTHEST: f32 = 4.0;
 
@@ -107,8 +110,29 @@ impl Session {
             true => "Show stroke",
             false => "Hide stroke",
         };
-        let pointer = format!("/subject/clay/strokes/{index}/off");
+        let pointer = format!("{STROKES}/{index}/off");
         self.apply(&Edit::put(pointer, value, name.to_owned()), false);
+    }
+
+    /// The edit that puts a stroke elsewhere among the others. The entries between the two places are written anew as
+    /// they stand in the document: how many of them are shown stays as it is.
+    pub(super) fn moved_stroke(&self, from: usize, to: usize) -> Option<Edit> {
+        let mut list = self.document().get(STROKES)?.as_array()?.clone();
+        if from.max(to) >= list.len() {
+            return None;
+        }
+        let stroke = list.remove(from);
+        list.insert(to, stroke);
+        let name = "Move stroke".to_owned();
+        let entries = list.into_iter().enumerate();
+        let changed = entries.filter(|(i, _)| (from.min(to)..=from.max(to)).contains(i));
+        let edits = changed.map(|(i, value)| Edit::Set {
+            pointer: format!("{STROKES}/{i}"),
+            value,
+            name: name.clone(),
+        });
+        let edits = edits.collect();
+        Some(Edit::All { name, edits })
     }
 
     /// Takes the way of a hand that shapes the clay. The whole gesture is one step of undo.
@@ -137,7 +161,7 @@ impl Session {
         }
         let name = "Draw a stroke".to_owned();
         edits.push(Edit::Set {
-            pointer: format!("/subject/clay/strokes/{index}"),
+            pointer: format!("{STROKES}/{index}"),
             value,
             name: name.clone(),
         });
@@ -230,7 +254,7 @@ fn both_turns(first: [i32; 3], second: [i32; 3]) -> [i32; 3] {
 
 fn changed(index: usize, stroke: &ClayStroke) -> Edit {
     Edit::Set {
-        pointer: format!("/subject/clay/strokes/{index}"),
+        pointer: format!("{STROKES}/{index}"),
         value: stroke.to_value(),
         name: "Change stroke".to_owned(),
     }
@@ -241,9 +265,11 @@ fn thousandths(pos: Vec3) -> [i32; 3] {
     (pos * 1e3).round().as_ivec3().to_array()
 }
 
-/// A turn as whole degrees about the axes of the subject.
+/// A turn as whole degrees about the axes of the subject, the shorter way round.
 fn degrees(turn: Quat) -> [i32; 3] {
+    let turn = if turn.w < 0.0 { -turn } else { turn };
     let vector = turn.to_scaled_axis() * (180.0 / std::f32::consts::PI);
+    let vector = vector.clamp_length_max(LONGEST_TURN);
     vector.round().as_ivec3().to_array()
 }
 
@@ -373,6 +399,7 @@ mod tests {
     const UP: Touch = Touch {
         pos: Vec3::new(0.2, 0.0, 0.45),
         normal: Vec3::Z,
+        force: None,
     };
 
     /// Touches along an arc in the plane of the picture.
@@ -592,6 +619,40 @@ mod tests {
         }
         assert!(written.contains(r#""/look/strokes":0"#), "{written}");
         assert_eq!(session.illustration().strokes_shown(), Some(1), "{written}");
+    }
+
+    #[test]
+    fn a_stroke_goes_elsewhere_and_as_many_are_shown() {
+        let json = r#"{ "fabrica": 1, "subject": { "clay": { "strokes": [
+            { "path": [0, 0, 400, 0, 0, 100] }, { "path": [1, 2, 3], "do": "carve", "x-deep": 7 },
+            { "path": [0, 0, -400, 0, 0, -100] }] } },
+            "look": { "strokes": 1 }, "steps": [{ "set": { "/look/strokes": 2 } }] }"#;
+        let mut session = Session::new(Document::from_json(json).expect("a document"));
+        let before = session.document().to_json_compact();
+        session.run(Command::Clay(ClayCommand::Select(0)), 0.0);
+        // The last one stands on top of the list.
+        session.run(Command::ShiftSelected(1), 0.0);
+        assert_eq!(session.selection.stroke(), Some(0), "it is the lowest");
+        session.run(Command::ShiftSelected(-1), 0.0);
+        assert_eq!(session.selection.stroke(), Some(1));
+        let listed = |session: &Session| session.document().get(STROKES).cloned();
+        let strokes = listed(&session).expect("strokes");
+        assert_eq!(strokes[0]["x-deep"], 7);
+        assert_eq!(strokes[1]["path"][2], 400);
+        assert_eq!(session.strokes_shown(), 1);
+        let written = session.document().to_json_compact();
+        assert!(written.contains(r#""/look/strokes":2"#), "{written}");
+        session.run(Command::Undo, 0.0);
+        assert_eq!(session.document().to_json_compact(), before);
+    }
+
+    #[test]
+    fn the_turn_of_a_key_is_the_shorter_one() {
+        let about_z = |degrees: f32| Quat::from_rotation_z(degrees.to_radians());
+        assert_eq!(degrees(about_z(90.0)), [0, 0, 90]);
+        assert_eq!(degrees(-about_z(90.0)), [0, 0, 90]);
+        assert_eq!(degrees(about_z(270.0)), [0, 0, -90]);
+        assert_eq!(degrees(about_z(180.0))[2].abs(), 178);
     }
 
     #[test]

@@ -14,7 +14,7 @@ words! {
         turn: "Turn", "Drehen", "Girar", "扭转";
         grow: "Grow", "Wachsen", "Crecer", "膨大";
         smooth: "Smooth", "Glätten", "Alisar", "平滑";
-        move_hint: "The tool goes with the hand, in the plane of the picture", "Das Werkzeug geht mit der Hand, in der Bildebene", "El instrumento sigue a la mano, en el plano de la imagen", "器械在图像平面内随手移动";
+        move_hint: "The tool goes with the hand, in the plane of the picture; Shift on the way keeps it to one axis", "Das Werkzeug geht mit der Hand, in der Bildebene; Umschalt unterwegs hält es auf einer Achse", "El instrumento sigue a la mano, en el plano de la imagen; Mayús por el camino lo mantiene en un eje", "器械在图像平面内随手移动；途中按 Shift 使其保持单轴";
         push_hint: "Up pulls out of the surface, down pushes into it", "Nach oben hebt aus der Fläche, nach unten drückt hinein", "Hacia arriba tira de la superficie, hacia abajo la hunde", "向上拉出表面，向下压入";
         along_hint: "The tool follows the surface under the hand", "Das Werkzeug folgt der Fläche unter der Hand", "El instrumento sigue la superficie bajo la mano", "器械沿手下的表面移动";
         turn_hint: "Sideways turns the tool about the surface's normal", "Seitwärts dreht das Werkzeug um die Flächennormale", "De lado gira el instrumento sobre la normal de la superficie", "左右拖动使器械绕表面法线旋转";
@@ -22,11 +22,13 @@ words! {
         smooth_hint: "What is under the hand is smoothed; with Shift held any drag does", "Was unter der Hand ist, wird geglättet; mit Umschalt tut es jedes Ziehen", "Alisa lo que está bajo la mano; con Mayús lo hace cualquier arrastre", "平滑手下的部分；按住 Shift 时任何拖动皆如此";
         form: "Form of the tool", "Form des Werkzeugs", "Forma del instrumento", "器械的形状";
         size: "Size", "Größe", "Tamaño", "大小";
-        size_hint: "Half the length of the tool; [ and ]", "Halbe Länge des Werkzeugs; [ und ]", "Mitad de la longitud del instrumento; [ y ]", "器械长度的一半；[ 和 ]";
+        size_hint: "Half the length of the tool; [ and ], or F held and the pointer or the wheel", "Halbe Länge des Werkzeugs; [ und ] oder F halten und Zeiger oder Rad bewegen", "Mitad de la longitud del instrumento; [ y ], o F pulsada y el puntero o la rueda", "器械长度的一半；[ 和 ]，或按住 F 移动指针或滚动滚轮";
         coat: "Coating", "Mantel", "Recubrimiento", "影响层";
-        coat_hint: "Width around the tool in which the motion fades", "Breite um das Werkzeug, in der die Bewegung abklingt", "Anchura en torno al instrumento en que el movimiento se atenúa", "器械周围运动逐渐减弱的宽度";
+        coat_hint: "Width around the tool in which the motion fades; as the size, with Shift and F", "Breite um das Werkzeug, in der die Bewegung abklingt; wie die Größe, mit Umschalt und F", "Anchura en torno al instrumento en que el movimiento se atenúa; como el tamaño, con Mayús y F", "器械周围运动逐渐减弱的宽度；同大小，用 Shift 和 F";
         depth: "Depth", "Tiefe", "Profundidad", "深度";
-        depth_hint: "How deep the tool is sunk where the drag begins: 0 % by half", "Wie tief das Werkzeug am Anfang des Zuges steckt: 0 % zur Hälfte", "Cuánto se hunde el instrumento al empezar: 0 % hasta la mitad", "拖动开始时器械陷入的深度：0 % 为一半";
+        depth_hint: "How deep the tool is sunk where the drag begins: 0 % by half. A pen sinks it deeper by pressing harder", "Wie tief das Werkzeug am Anfang des Zuges steckt: 0 % zur Hälfte. Ein Stift senkt es tiefer, wenn er stärker drückt", "Cuánto se hunde el instrumento al empezar: 0 % hasta la mitad. Un lápiz lo hunde más si presiona más", "拖动开始时器械陷入的深度：0 % 为一半。触控笔压得越重，陷入越深";
+        angle: "Angle", "Winkel", "Ángulo", "角度";
+        angle_hint: "Turn of the tool about the surface's normal; R held and the pointer", "Drehung des Werkzeugs um die Flächennormale; R halten und Zeiger bewegen", "Giro del instrumento sobre la normal de la superficie; R pulsada y el puntero", "器械绕表面法线的转角；按住 R 移动指针";
         smaller: "Smaller tool", "Kleineres Werkzeug", "Instrumento menor", "缩小器械";
         larger: "Larger tool", "Größeres Werkzeug", "Instrumento mayor", "放大器械";
         mirror: "Mirror across {0}", "Spiegeln quer zu {0}", "Espejo en {0}", "沿 {0} 镜像";
@@ -37,6 +39,8 @@ words! {
         show_all_first: "Strokes are drawn where all of them are shown: put “Shown” to the end first", "Striche zeichnet man, wo alle gezeigt werden: zuerst „Gezeigt“ ans Ende stellen", "Los trazos se dibujan donde se muestran todos: lleve antes «Mostrados» al final", "须显示全部笔划才能绘制：先把“显示”调到最后";
         too_many_tools: "A clay has at most {0} different tools; choose one of those that its strokes use", "Ein Ton hat höchstens {0} verschiedene Werkzeuge; bitte eines wählen, das seine Striche verwenden", "Una arcilla tiene como máximo {0} instrumentos distintos; elija uno de los que usan sus trazos", "一块黏土最多有 {0} 种器械；请选用其笔划已用的一种";
         stroke: "Stroke {0}", "Strich {0}", "Trazo {0}", "笔划 {0}";
+        later: "Move stroke {0} up: it acts later", "Strich {0} nach oben: wirkt später", "Subir el trazo {0}: actúa después", "上移笔划 {0}：更晚起效";
+        earlier: "Move stroke {0} down: it acts earlier", "Strich {0} nach unten: wirkt früher", "Bajar el trazo {0}: actúa antes", "下移笔划 {0}：更早起效";
         remove: "Remove stroke {0}", "Strich {0} entfernen", "Quitar el trazo {0}", "移除笔划 {0}";
         swept: "moves", "bewegt", "mueve", "移动";
         smoothed: "smooths", "glättet", "alisa", "平滑";
@@ -46,6 +50,10 @@ words! {
         cube: "Block of clay", "Tonwürfel", "Bloque de arcilla", "黏土块";
         plate: "Plate of clay", "Tonplatte", "Placa de arcilla", "黏土板";
         torus: "Ring of clay", "Tonring", "Anillo de arcilla", "黏土环";
+        key_size: "F held over clay", "F halten über Ton", "F pulsada sobre arcilla", "在黏土上按住 F";
+        key_size_does: "Size the tool; with Shift its coating", "Größe des Werkzeugs; mit Umschalt der Mantel", "Tamaño del instrumento; con Mayús el recubrimiento", "调整器械大小；加 Shift 调影响层";
+        key_turn: "R held over clay", "R halten über Ton", "R pulsada sobre arcilla", "在黏土上按住 R";
+        key_turn_does: "Turn the tool", "Werkzeug drehen", "Girar el instrumento", "转动器械";
         drag: "Drag over the clay; beside it turns the view", "Über den Ton ziehen; daneben dreht es die Ansicht", "Arrastre sobre la arcilla; al lado gira la vista", "在黏土上拖动；旁边则转动视图";
     }
 }
