@@ -190,7 +190,7 @@ fn a_clay_may_be_made_from_a_file() {
     let again = clay_from_text(&clay_to_text(clay(&document)));
     assert_eq!(again.as_ref(), Ok(clay(&document)));
     let other = clay(&document).with_file(Some("a.stl".to_owned()), None);
-    let file = other.file().expect("a file");
+    let file = other.mesh().expect("a file");
     assert_eq!(
         (file.src.as_deref(), file.sha256.as_ref()),
         (Some("a.stl"), None)
