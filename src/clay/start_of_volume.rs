@@ -388,3 +388,266 @@ fn notices(gone: usize, found: usize, left: usize) -> Vec<String> {
     }
     lines
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clay::check::Check;
+    use crate::clay::shaping::Shaped;
+    use crate::clay::suite::{ball, place, stroke};
+    use crate::data::Voxels;
+    use crate::document::{ClayStart, VoxelSource};
+    use glam::{DAffine3, UVec3};
+    use std::f64::consts::PI;
+
+    /// A volume with these labels in voxels of 1 mm, and no values.
+    fn labelled(n: u32, label: impl Fn(DVec3) -> u8) -> Volume {
+        let segments = [(1, "lump"), (2, "other")];
+        let middle = 0.5 * f64::from(n - 1);
+        let about = |voxel: UVec3| label(voxel.as_dvec3() - middle);
+        let segmentation = Segmentation::cube(n, 1.0, about, &segments);
+        Volume {
+            grid: segmentation.grid,
+            voxels: Voxels::U8(Vec::new()),
+            slope: 1.0,
+            intercept: 0.0,
+            value_range: [0.0, 0.0],
+            segmentation: Some(segmentation),
+            has_size: true,
+        }
+    }
+
+    fn clay_of(part: VoxelPart, has_all_walls: bool, detail: f64) -> Clay {
+        Clay {
+            from: ClayStart::Volume(Box::new(ClayVolume {
+                of: VoxelSource::Builtin("head".to_owned()),
+                part,
+                has_all_walls,
+            })),
+            detail,
+            ..Clay::default()
+        }
+    }
+
+    fn lump(detail: f64) -> Clay {
+        clay_of(VoxelPart::Segment("lump".to_owned()), false, detail)
+    }
+
+    fn begin(clay: &Clay, volume: &Volume) -> Result<Shaping, ClayError> {
+        let meant = clay.volume().unwrap();
+        Shaping::of_volume(clay, meant, volume, &mut |_| true)
+    }
+
+    /// A start that is closed and two-manifold.
+    fn begun(clay: &Clay, volume: &Volume) -> (Shaping, Shaped, Check) {
+        let start = begin(clay, volume).unwrap();
+        let shaped = start.shaped();
+        let found = Check::of(&shaped.positions, &shaped.triangles, None);
+        assert!(found.is_two_manifold(), "{}", found.lines());
+        assert_eq!(found.border_edges, 0, "{}", found.lines());
+        (start, shaped, found)
+    }
+
+    fn volume_mm(shaped: &Shaped, found: &Check) -> f64 {
+        found.volume.unwrap() * shaped.space.mm_per_unit.powi(3)
+    }
+
+    #[test]
+    fn a_ball_of_voxels_is_a_ball() {
+        let volume = labelled(40, |at| u8::from(at.length() < 15.0));
+        let labels = &volume.segmentation.as_ref().unwrap().labels;
+        let count = labels.iter().filter(|label| **label == 1).count() as f64;
+        for detail in [0.03, 0.1] {
+            let (start, shaped, found) = begun(&lump(detail), &volume);
+            assert_eq!((found.euler, found.pieces, found.crossing), (2, 1, 0));
+            let volume_mm = volume_mm(&shaped, &found);
+            // By σ²/r of σ² = 1.5 voxels the filter makes it smaller.
+            let voxel = if detail < 0.05 { 1.0 } else { 2.0 };
+            let smaller = 1.0 - 3.0 * 1.5 * (voxel / 15.0_f64).powi(2);
+            let off = volume_mm / (count * smaller);
+            assert!((off - 1.0).abs() < 0.04, "{volume_mm} of {count}, {off}");
+            let middle = shaped.space.middle_mm;
+            assert!(middle.distance(DVec3::splat(19.5)) < 0.05, "{middle}");
+            assert!((shaped.space.mm_per_unit - 30.0).abs() < 1.0);
+            for (pos, normal) in shaped.positions.iter().zip(&shaped.normals) {
+                let out = pos.normalize_or_zero().dot(*normal);
+                assert!(out > 0.9, "{normal} at {pos}");
+            }
+            assert_eq!(start.notices(), [""; 0]);
+            let again = begin(&lump(detail), &volume).unwrap().shaped();
+            assert_eq!(shaped, again, "bit for bit");
+        }
+        let finer = begun(&lump(0.03), &volume).2.triangles;
+        let coarser = begun(&lump(0.1), &volume).2.triangles;
+        assert!(finer > 2 * coarser, "{finer} and {coarser}");
+    }
+
+    #[test]
+    fn strokes_shape_it_as_any_other_clay() {
+        let volume = labelled(30, |at| u8::from(at.length() < 10.0));
+        let mut clay = lump(0.06);
+        clay.tools = vec![ball(0.1, 0.1)];
+        clay.strokes = vec![stroke(&[[0, 0, 440], [0, 0, 640]].map(place))];
+        let mut start = begin(&clay, &volume).unwrap();
+        start.stroke(&clay, &mut |_| true).unwrap();
+        assert!(start.left_out().is_empty());
+        let shaped = start.shaped();
+        let found = Check::of(&shaped.positions, &shaped.triangles, None);
+        assert!(found.is_two_manifold(), "{}", found.lines());
+        assert_eq!((found.euler, found.border_edges), (2, 0));
+        let top = shaped.positions.iter().map(|pos| pos.z);
+        assert!(top.reduce(f32::max).unwrap() > 0.6, "it is pulled");
+    }
+
+    #[test]
+    fn of_several_pieces_the_largest_is_taken_and_hollows_are_filled() {
+        let two = |at: DVec3| {
+            let [large, small] = [DVec3::X * -9.0, DVec3::X * 11.0];
+            u8::from(at.distance(large) < 9.0 || at.distance(small) < 6.0)
+        };
+        let volume = labelled(44, two);
+        let (start, shaped, found) = begun(&lump(0.05), &volume);
+        assert_eq!((found.euler, found.pieces), (2, 1));
+        assert!(
+            shaped.space.middle_mm.x < 16.0,
+            "{}",
+            shaped.space.middle_mm
+        );
+        let said = start.notices();
+        assert!(said.len() == 1 && said[0].ends_with(": 1"), "{said:?}");
+        let all = clay_of(VoxelPart::Segment("lump".to_owned()), true, 0.05);
+        let (start, _, found) = begun(&all, &volume);
+        assert_eq!((found.euler, found.pieces), (4, 2));
+        assert_eq!(start.notices(), [""; 0]);
+
+        let shell = |at: DVec3| u8::from((9.0..16.0).contains(&at.length()));
+        let volume = labelled(40, shell);
+        let (_, filled, of_filled) = begun(&lump(0.05), &volume);
+        assert_eq!((of_filled.euler, of_filled.pieces), (2, 1));
+        let (_, hollow, of_hollow) = begun(&all, &volume);
+        assert_eq!((of_hollow.euler, of_hollow.pieces), (4, 2));
+        let taken = volume_mm(&filled, &of_filled) - volume_mm(&hollow, &of_hollow);
+        let wanted = 4.0 / 3.0 * PI * 9.0_f64.powi(3);
+        assert!((taken / wanted - 1.0).abs() < 0.1, "{taken} for {wanted}");
+    }
+
+    #[test]
+    fn what_reaches_the_border_is_closed_there() {
+        let volume = labelled(12, |_| 1);
+        let (_, shaped, found) = begun(&lump(0.1), &volume);
+        assert_eq!((found.euler, found.pieces), (2, 1));
+        assert!((shaped.space.mm_per_unit - 12.0).abs() < 0.05);
+        // Of values too, of which half the grid has enough.
+        let mut volume = labelled(12, |_| 0);
+        let values = (0..12 * 12 * 12).map(|i| i % 12 * 10);
+        volume.voxels = Voxels::I16(values.collect());
+        volume.slope = 2.0;
+        volume.intercept = -100.0;
+        let of = |iso| clay_of(VoxelPart::Iso(iso), false, 0.1);
+        let (_, shaped, found) = begun(&of(0.0), &volume);
+        assert_eq!((found.euler, found.pieces), (2, 1));
+        let least = shaped.positions_mm().into_iter().map(|pos| pos.x);
+        let least = least.reduce(f32::min).unwrap();
+        assert!((least - 5.0).abs() < 0.02, "where the value is: {least}");
+        assert!((shaped.space.mm_per_unit - 12.0).abs() < 0.05);
+    }
+
+    #[test]
+    fn an_isosurface_lies_where_its_value_lies() {
+        let mut volume = labelled(40, |_| 0);
+        let at = |i: u32| UVec3::new(i % 40, i / 40 % 40, i / 1600).as_dvec3() - 19.5;
+        let values = (0..40 * 40 * 40).map(|i| (1000.0 - 40.0 * at(i).length()).round() as i16);
+        volume.voxels = Voxels::I16(values.collect());
+        volume.value_range = [-400.0, 965.0];
+        let of = |iso| clay_of(VoxelPart::Iso(iso), false, 0.05);
+        let (_, shaped, found) = begun(&of(600.0), &volume);
+        assert_eq!((found.euler, found.pieces), (2, 1));
+        for pos in shaped.positions_mm() {
+            let radius = pos.as_dvec3().distance(DVec3::splat(19.5));
+            assert!((radius - 10.0).abs() < 0.2, "{radius}");
+        }
+        // No such surface: refused in a line.
+        for iso in [1e9, -1e9, f64::MAX, 966.0, -2000.0] {
+            let error = begin(&of(iso), &volume).unwrap_err().to_string();
+            assert!(error.contains("between -400 and 965"), "{error}");
+            assert!(!error.contains('\n'), "{error}");
+        }
+        let mut holes = volume.clone();
+        let no_number = |i: u32| if at(i).x > 2.0 { f32::NAN } else { 1.0 };
+        holes.voxels = Voxels::F32((0..40 * 40 * 40).map(no_number).collect());
+        let (_, _, found) = begun(&of(0.5), &holes);
+        assert_eq!(
+            (found.euler, found.pieces),
+            (2, 1),
+            "what is no number is outside"
+        );
+    }
+
+    #[test]
+    fn oblique_mirrored_and_uneven_grids_keep_their_millimetres() {
+        let mut volume = labelled(40, |_| 0);
+        let middle = DVec3::new(3.0, -20.0, 100.0);
+        // Thin slices along x, mirrored in y, turned about z.
+        let world_from_voxel = DAffine3::from_translation(middle)
+            * DAffine3::from_rotation_z(0.3)
+            * DAffine3::from_scale(DVec3::new(0.5, -1.0, 1.0))
+            * DAffine3::from_translation(DVec3::splat(-19.5));
+        let segmentation = volume.segmentation.as_mut().unwrap();
+        segmentation.grid.world_from_voxel = world_from_voxel;
+        for (i, label) in segmentation.labels.iter_mut().enumerate() {
+            let voxel = UVec3::new(i as u32 % 40, i as u32 / 40 % 40, i as u32 / 1600);
+            let at = world_from_voxel.transform_point3(voxel.as_dvec3());
+            *label = u8::from(at.distance(middle) < 8.0);
+        }
+        let (_, shaped, found) = begun(&lump(0.1), &volume);
+        assert_eq!((found.euler, found.pieces), (2, 1));
+        let found = volume_mm(&shaped, &found) / (4.0 / 3.0 * PI * 512.0);
+        assert!(
+            found > 0.85 && found < 1.02,
+            "its outside is outside: {found}"
+        );
+        assert!(shaped.space.middle_mm.distance(middle) < 0.1);
+    }
+
+    #[test]
+    fn what_is_not_there_is_named() {
+        let volume = labelled(20, |at| u8::from(at == DVec3::splat(0.5)));
+        let of = |name: &str| clay_of(VoxelPart::Segment(name.to_owned()), false, 0.05);
+        let said = |clay: &Clay| begin(clay, &volume).unwrap_err().to_string();
+        for (name, part) in [
+            ("skull", "no segment \"skull\" (there are lump, other)"),
+            ("other", "no voxel is of the segment \"other\""),
+            ("lump", "\"lump\" is too thin for a clay of detail 0.05"),
+        ] {
+            let line = said(&of(name));
+            assert!(line.contains(part), "{line}");
+        }
+        let mut bare = volume.clone();
+        bare.segmentation = None;
+        let error = begin(&of("lump"), &bare).unwrap_err().to_string();
+        assert!(error.contains("it has none"), "{error}");
+        let long = said(&of(&"x".repeat(1000)));
+        assert!(long.len() < 200, "{long}");
+        // Where segments overlap, the overlap is of both.
+        let mut volume = labelled(30, |at| match at.length() < 9.0 {
+            true => 1 + u8::from(at.x > 0.0),
+            false => 0,
+        });
+        let segmentation = volume.segmentation.as_mut().unwrap();
+        let mut both = segmentation.segments[0].clone();
+        both.label = 2;
+        segmentation.segments.push(both);
+        let (_, shaped, _) = begun(&of("lump"), &volume);
+        assert!(
+            (shaped.space.mm_per_unit - 18.0).abs() < 1.0,
+            "all of the ball"
+        );
+        // It is stopped where it is asked to stop.
+        for most in [0.0, 0.4, 0.7] {
+            let clay = of("lump");
+            let meant = clay.volume().unwrap();
+            let stopped = Shaping::of_volume(&clay, meant, &volume, &mut |part| part < most);
+            assert_eq!(stopped.unwrap_err(), ClayError::Stopped);
+        }
+    }
+}

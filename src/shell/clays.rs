@@ -407,6 +407,7 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::clay::Check;
     use crate::document::{ClayTool, Document};
     use crate::load::MemoryFiles;
 
@@ -554,6 +555,87 @@ mod tests {
         match &document.illustration().subject {
             SubjectRef::Clay(clay) => Arc::clone(clay),
             other => panic!("{other:?}"),
+        }
+    }
+
+    /// A clay that begins with a part of a volume.
+    fn of_volume(from: &str) -> Arc<Clay> {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "from": { FROM }, "detail": 0.05,
+            "tools": [{ "radius": 0.2 }], "strokes": [{ "path": [0, 0, 450, 0, 0, 200] }] } } }"#;
+        let document = Document::from_json(&text.replace("FROM", from)).unwrap();
+        assert_eq!(document.notices(), []);
+        match &document.illustration().subject {
+            SubjectRef::Clay(clay) => Arc::clone(clay),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// The ball in the cube is round and 50 mm wide.
+    #[test]
+    fn a_clay_of_a_built_in_subject_is_made_where_it_is_shaped() {
+        let clay = of_volume(r#""of": { "builtin": "cube" }, "segment": "ball""#);
+        let mut desk = ClayDesk::default();
+        let mut heard = Vec::new();
+        let shaped = desk.shape(&clay, &mut |part| {
+            heard.push(part);
+            true
+        });
+        let pulled = shaped.unwrap().shaped();
+        assert!(heard.is_sorted(), "{heard:?}");
+        let start = desk.shape(&clay.cut(0), &mut |_| panic!("it is here"));
+        let start = start.unwrap().shaped();
+        assert!(pulled.positions.len() > start.positions.len());
+        for (shaped, volume) in [(&start, true), (&pulled, false)] {
+            let found = Check::of(&shaped.positions, &shaped.triangles, None);
+            assert!(found.is_two_manifold(), "{}", found.lines());
+            assert_eq!((found.euler, found.pieces, found.border_edges), (2, 1, 0));
+            if volume {
+                let cube = builtin_voxels("cube", &mut |_| true).unwrap();
+                let labels = cube.segmentation.unwrap().labels;
+                let count = labels.iter().filter(|label| **label == 4).count() as f64;
+                let wanted = count * cube.grid.spacing_mm().element_product();
+                let made = found.volume.unwrap() * shaped.space.mm_per_unit.powi(3);
+                assert!((made / wanted - 1.0).abs() < 0.05, "{made} of {wanted}");
+            }
+        }
+        assert!((start.space.mm_per_unit - 50.0).abs() < 1.0);
+        assert!(start.space.middle_mm.length() < 0.1);
+        // As events, without a file.
+        let mut events = Vec::new();
+        make_clay(&mut desk, &clay, &mut |event: LoadEvent| {
+            events.push(event);
+            true
+        });
+        assert!(surface(&events).is_some());
+        assert!(matches!(
+            events.last(),
+            Some(LoadEvent::Done { sha256: None })
+        ));
+        let gone = of_volume(r#""of": { "builtin": "cube" }, "segment": "stone""#);
+        let gone = desk.shape(&gone, &mut |_| true).unwrap_err().to_string();
+        assert!(gone.contains("top, middle, bottom, ball"), "{gone}");
+        let none = of_volume(r#""of": { "builtin": "cube" }, "iso": 1e9"#);
+        let none = desk.shape(&none, &mut |_| true).unwrap_err().to_string();
+        assert!(none.contains("1000000000"), "{none}");
+        let mut fresh = ClayDesk::default();
+        let stopped = fresh.shape(&clay, &mut |part| part < 0.1);
+        assert_eq!(stopped.unwrap_err(), ClayError::Stopped);
+    }
+
+    /// What documents take for voxels is what the program makes of voxels.
+    #[test]
+    fn clays_begin_with_every_built_in_subject_of_voxels() {
+        let of = |name: &str| {
+            let text =
+                r#"{"fabrica":1,"subject":{"clay":{"from":{"of":{"builtin":"NAME"},"iso":0}}}}"#;
+            Document::from_json(&text.replace("NAME", name))
+        };
+        for name in crate::subjects::names() {
+            assert_eq!(of(name).unwrap().notices(), [], "{name}");
+        }
+        let figures = crate::document::DRAWN_FIGURES.iter();
+        for name in crate::subjects::mesh_names().iter().chain(figures) {
+            assert!(of(name).is_err(), "{name} has no voxels");
         }
     }
 
