@@ -18,8 +18,8 @@ enum State {
 }
 
 /// Fills the largest piece of the voxels that are meant and takes the others away. Voxels hang together by their faces,
-/// and what is around them by edges too, as the surface between them has it. Of pieces of one size the first counts. The
-/// outermost layer has to be free. Gives how many pieces are taken away.
+/// and what is around them by edges too, as the surface between them has it. Of pieces of one size the first counts.
+/// The outermost layer has to be free. Gives how many pieces are taken away.
 pub(super) fn keep_largest(is_inside: &mut [bool], dims: USizeVec3) -> usize {
     let by_faces = neighbours(1);
     let state = |is_in: &bool| match is_in {

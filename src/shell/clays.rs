@@ -271,7 +271,11 @@ fn read_voxels(
     builder.finish().map_err(|error| cannot(error.to_string()))
 }
 
-/// The readers of scans are a program of their own in the page, and this one goes without them.
+/// What the page says of a clay of a scan: its readers of scans are a program of their own, and the shaper of clays goes
+/// without them.
+#[cfg(target_arch = "wasm32")]
+pub const NO_SCANS: &str = "a clay of a scan is not drawn in the page yet: write it with `fabrica clay`, and begin with that mesh";
+
 #[cfg(target_arch = "wasm32")]
 fn read_voxels(
     (_, name): (&mut dyn FileSet, &str),
@@ -281,8 +285,7 @@ fn read_voxels(
 ) -> Result<Volume, LoadError> {
     Err(LoadError::Unsupported {
         name: name.to_owned(),
-        what: "a clay of a scan is not made in the page yet: export it by `fabrica clay` and begin with that mesh"
-            .to_owned(),
+        what: NO_SCANS.to_owned(),
     })
 }
 
