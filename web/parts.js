@@ -52,8 +52,10 @@ export function partOf(json, base) {
     return null;
   }
   if (typeof subject?.clay === "object" && subject.clay !== null) {
-    const { src, sha256 } = Object(subject.clay.from);
-    // Without a file it begins with a shape; a file of the reader's own is not there yet.
+    const from = Object(subject.clay.from);
+    const of = from.of === undefined ? from : Object(from.of);
+    const { src, sha256 } = of.builtin === undefined ? of : {};
+    // Without a file it begins with a shape or a built-in subject; a file of the reader's own is not there yet.
     if (src === undefined) return sha256 === undefined ? "clay" : null;
     return ownPath(src, base) === null ? null : "clay";
   }

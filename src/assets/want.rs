@@ -216,7 +216,7 @@ impl Want {
     pub fn name(&self) -> &str {
         match &self.source {
             Source::Builtin(name) | Source::File { name, .. } => name,
-            Source::Clay(clay) => clay.file().map_or("clay", |mesh| &mesh.name),
+            Source::Clay(clay) => clay.file().map_or("clay", |file| file.name),
         }
     }
 
@@ -232,7 +232,7 @@ impl Want {
     pub fn src(&self) -> Option<&str> {
         match &self.source {
             Source::Builtin(_) => None,
-            Source::Clay(clay) => clay.file()?.src.as_deref(),
+            Source::Clay(clay) => clay.file()?.src,
             Source::File { src, .. } => src.as_deref(),
         }
     }
@@ -241,7 +241,7 @@ impl Want {
     pub fn sha256(&self) -> Option<&str> {
         match &self.source {
             Source::Builtin(_) => None,
-            Source::Clay(clay) => clay.file()?.sha256.as_deref(),
+            Source::Clay(clay) => clay.file()?.sha256,
             Source::File { sha256, .. } => sha256.as_deref(),
         }
     }

@@ -29,6 +29,22 @@ pub enum ClayError {
         /// Those that are left.
         left: usize,
     },
+    /// The voxels that it begins with have not been read or made.
+    #[error("the voxels that the clay begins with are not there")]
+    NoVoxels,
+    /// The volume has no such segment.
+    #[error("the volume that the clay begins with has no segment \"{name}\" ({known})")]
+    NoSegment {
+        /// The segment that is named.
+        name: String,
+        /// Those that there are, in words.
+        known: String,
+    },
+    /// The part of a volume that is meant has more triangles than are looked at.
+    #[error(
+        "the walls of the clay's volume have {0} triangles, and a clay is made of at most {MAX_FILE_TRIANGLES}: a larger detail has fewer"
+    )]
+    ManyWalls(usize),
     /// It cannot be drawn.
     #[error("{0}")]
     NoSurface(String),

@@ -6,6 +6,7 @@ mod body;
 mod check;
 mod error;
 mod field;
+mod march;
 mod mend;
 mod mesh;
 mod motion;
@@ -15,6 +16,8 @@ mod smooth;
 mod space;
 mod start;
 mod start_of_file;
+mod start_of_volume;
+mod walls;
 mod way;
 mod write;
 

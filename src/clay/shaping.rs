@@ -75,14 +75,16 @@ struct Candidates {
 }
 
 impl Shaping {
-    /// The built-in starting shape of a clay; what begins with a file is made by [`Shaping::of_mesh`].
+    /// The built-in starting shape of a clay; what begins with a file or with a volume is made by
+    /// [`Shaping::of_mesh`] and [`Shaping::of_volume`].
     ///
     /// # Errors
-    /// If this version does not know it, or it is a file.
+    /// If this version does not know it, or it is no shape.
     pub fn new(clay: &Clay) -> Result<Self, ClayError> {
         let shape = match &clay.from {
             ClayStart::Shape(shape) => *shape,
             ClayStart::Mesh(_) => return Err(ClayError::NoFile),
+            ClayStart::Volume(_) => return Err(ClayError::NoVoxels),
             ClayStart::Unknown(name) => return Err(ClayError::UnknownStart(name.clone())),
         };
         let (vertices, triangles) = start::shape(shape, clay.detail);

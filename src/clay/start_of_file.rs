@@ -144,7 +144,7 @@ impl Shaping {
     }
 
     /// Collapses edges until there are few enough triangles to begin with, by a detail that is doubled each time.
-    fn reduce(
+    pub(super) fn reduce(
         &mut self,
         found: usize,
         go_on: &mut dyn FnMut(f32) -> bool,
@@ -159,21 +159,26 @@ impl Shaping {
             if detail > COARSEST {
                 return Err(ClayError::Irreducible { found, left });
             }
-            let mut stepping = self.stepping();
-            stepping.detail = detail;
-            for vertex in 0..stepping.mesh.vertex_places() {
-                if stepping.mesh.is_vertex(vertex) {
-                    stepping.touch(vertex);
-                }
-            }
-            stepping.collapse_short(&Still);
             let before = left;
-            left = stepping.mesh.triangle_count();
+            left = self.collapse_all(detail);
             if ((before - left) as f64) < WORTH * before as f64 {
                 detail *= 2.0;
             }
         }
         Ok(())
+    }
+
+    /// Collapses all edges that are short for a detail. Gives how many triangles are left.
+    pub(super) fn collapse_all(&mut self, detail: f64) -> usize {
+        let mut stepping = self.stepping();
+        stepping.detail = detail;
+        for vertex in 0..stepping.mesh.vertex_places() {
+            if stepping.mesh.is_vertex(vertex) {
+                stepping.touch(vertex);
+            }
+        }
+        stepping.collapse_short(&Still);
+        stepping.mesh.triangle_count()
     }
 }
 
@@ -197,14 +202,19 @@ fn surface_of(mended: Mended) -> Option<ClayMesh> {
             mesh.split(half, Vertex::new((a + b) * 0.5, DVec3::Z));
         }
     }
+    give_normals(&mut mesh);
+    Some(mesh)
+}
+
+/// Gives every vertex the mean normal of its triangles.
+pub(super) fn give_normals(mesh: &mut ClayMesh) {
     for vertex in 0..mesh.vertex_places() {
         if mesh.is_vertex(vertex) {
-            let normal = normal_by_angle(&mesh, vertex).normalize_or(DVec3::Z);
+            let normal = normal_by_angle(mesh, vertex).normalize_or(DVec3::Z);
             let pos = mesh.vertices[vertex as usize].pos();
             mesh.vertices[vertex as usize] = Vertex::new(pos, normal);
         }
     }
-    Some(mesh)
 }
 
 /// What was done to a file, in words.

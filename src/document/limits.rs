@@ -70,6 +70,8 @@ pub const DRAWN_FIGURES: [&str; 5] = [
     "drawn-heart",
     "drawn-face",
 ];
+/// Those that are meshes, of which no clay begins as of voxels.
+pub(crate) const MESH_SUBJECTS: [&str; 1] = ["apple"];
 /// The other subjects that the program generates, or will generate in a later release.
 pub const BUILTIN_SUBJECTS: [&str; 9] = [
     "apple",

@@ -74,17 +74,18 @@ pub use limits::{
 };
 pub use model::figure;
 pub use model::{
-    Align, Background, BodyKind, Camera, Caption, Clay, ClayKey, ClayMove, ClayShape, ClayStart,
-    ClayStroke, ClayTool, CleanStep, Constrain, ConstrainBy, Control, ControlPoint, ControlPoints,
-    ControlRange, Curve, FIGURE_FRONT, FieldRef, FoundObject, Ghost, GhostBy, Hatch, HatchBy,
-    Illustration, Layer, Light, Look, MAX_KEYS, MAX_PARAM_FLOATS, MAX_TOOLS, MeshAxes, MeshParts,
-    MeshReading, MeshRef, MeshUnits, NotCarving, ObjectPlacement, ObjectRef, ObjectSource,
-    OpacityMode, Outline, PRESETS, ParamKind, ParamSpec, ParamValue, PathKey, PlacedTemplate,
-    Preset, PresetSubject, RawVoxels, Reading, Recipe, RecipeSource, STYLE_PRESETS, SceneObject,
-    SegmentLook, SegmentSurface, SegmentsRef, Step, Stipple, Stroke, Style, StylePreset,
-    SubjectBox, SubjectRef, SurfaceChange, SurfaceLook, SweepTool, SweepTools, TemplateData,
-    TemplateKind, TemplateMode, TemplateSpec, Tone, ToolShape, Transfer, TransferPoint, Window,
-    is_drawn_name, keep_set, keep_sets, needs_shaping, preset, presets, style_preset,
+    Align, Background, BodyKind, Camera, Caption, Clay, ClayFile, ClayKey, ClayMove, ClayShape,
+    ClayStart, ClayStroke, ClayTool, ClayVolume, CleanStep, Constrain, ConstrainBy, Control,
+    ControlPoint, ControlPoints, ControlRange, Curve, FIGURE_FRONT, FieldRef, FoundObject, Ghost,
+    GhostBy, Hatch, HatchBy, Illustration, Layer, Light, Look, MAX_KEYS, MAX_PARAM_FLOATS,
+    MAX_TOOLS, MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, NotCarving, ObjectPlacement,
+    ObjectRef, ObjectSource, OpacityMode, Outline, PRESETS, ParamKind, ParamSpec, ParamValue,
+    PathKey, PlacedTemplate, Preset, PresetSubject, RawVoxels, Reading, Recipe, RecipeSource,
+    STYLE_PRESETS, SceneObject, SegmentLook, SegmentSurface, SegmentsRef, Step, Stipple, Stroke,
+    Style, StylePreset, SubjectBox, SubjectRef, SurfaceChange, SurfaceLook, SweepTool, SweepTools,
+    TemplateData, TemplateKind, TemplateMode, TemplateSpec, Tone, ToolShape, Transfer,
+    TransferPoint, VoxelPart, VoxelSource, Window, is_drawn_name, keep_set, keep_sets,
+    needs_shaping, preset, presets, style_preset,
 };
 pub use read::{clay_from_text, figure_from_text};
 pub use text::{DocumentError, Notice, NoticeKind, pointer};

@@ -19,10 +19,10 @@ use super::model::figure::{
     SCALE_RANGE,
 };
 use super::model::{
-    Align, BodyKind, Camera, Clay, ClayShape, ClayStroke, ConstrainBy, GhostBy, HatchBy, Layer,
-    Light, MeshAxes, MeshParts, MeshReading, MeshUnits, ObjectPlacement, OpacityMode, ParamKind,
-    RawVoxels, SceneObject, Step, Style, StylePreset, SurfaceLook, TemplateKind, TemplateMode,
-    Tone,
+    Align, BodyKind, Camera, Clay, ClayShape, ClayStroke, ClayVolume, ConstrainBy, GhostBy,
+    HatchBy, Layer, Light, MeshAxes, MeshParts, MeshReading, MeshUnits, ObjectPlacement,
+    OpacityMode, ParamKind, RawVoxels, SceneObject, Step, Style, StylePreset, SurfaceLook,
+    TemplateKind, TemplateMode, Tone,
 };
 use super::text::{json, pointer};
 use crate::displace::{
@@ -495,7 +495,7 @@ pub(crate) const SUBJECT: &[Key] = &[
 /// Keys of `/subject/clay`. Its unit of length is the longest side of the starting shape.
 #[rustfmt::skip]
 pub(crate) const CLAY: &[Key] = &[
-    key(530, "from", Kind::Object(CLAY_FROM), "what it is before the first stroke: a shape, or a mesh file. Its centre is the origin, and its longest side is 1 unit"),
+    key(530, "from", Kind::Object(CLAY_FROM), "what it is before the first stroke: a shape, a mesh file, or a part of a volume. Its centre is the origin, and its longest side is 1 unit"),
     key(BY_NAME, "detail", exact(0.02, Clay::DETAIL[0], Clay::DETAIL[1]), "longest edge of its triangles where strokes come, subject units"),
     key(BY_NAME, "tools", Kind::List { of: CLAY_TOOL, most: Clay::MAX_TOOLS, what: "tools" }, "what strokes are made by. Without this key there is one, with all its keys at their defaults").optional().unmade(),
     key(BY_NAME, "strokes", Kind::List { of: CLAY_STROKE, most: Clay::MAX_STROKES, what: "strokes" }, "what shapes it, one after the other"),
@@ -504,12 +504,27 @@ pub(crate) const CLAY: &[Key] = &[
 /// Keys of `/subject/clay/from`.
 #[rustfmt::skip]
 pub(crate) const CLAY_FROM: &[Key] = &[
-    key(BY_NAME, "shape", Kind::Name(&ClayShape::NAMES), "a ball of radius ½, a cube of side 1, a plate 1 × 1 × 0.15 (z), both with edges rounded by 0.02, or a torus about z of radius 0.35 to the middle of its tube, which has radius 0.15. A unit is 100 mm. `src` and `sha256` go before it"),
+    key(BY_NAME, "shape", Kind::Name(&ClayShape::NAMES), "a ball of radius ½, a cube of side 1, a plate 1 × 1 × 0.15 (z), both with edges rounded by 0.02, or a torus about z of radius 0.35 to the middle of its tube, which has radius 0.15. A unit is 100 mm. `of`, `src` and `sha256` go before it"),
+    key(BY_NAME, "of", Kind::Object(CLAY_OF), "a subject of voxels, a built-in one or a scan; it goes before `shape`, `src` and `sha256`. The clay begins with its `segment` or its `iso`").optional().unmade(),
+    key(BY_NAME, "segment", Kind::Text, "name of the segment of `of` that is meant; it goes before `iso`"),
+    key(BY_NAME, "iso", exact(0.0, -MAX_VALUE, MAX_VALUE), "of `of`, what has at least this value is meant").optional(),
+    key(BY_NAME, "walls", Kind::Name(&ClayVolume::WALLS), "`outer` takes of what is meant the outer wall of the largest piece, which is filled; `all` every wall of every piece"),
     key(230, "src", Kind::Address, "address of a mesh file, all of whose parts are one clay").optional(),
     key(240, "sha256", Kind::Hash, "hash of the file's bytes; without `src` the reader supplies the file that has it").optional(),
     key(250, "name", Kind::Text, "the author's name for the file"),
     key(275, "units", UNITS, "length of one unit of the file; without it millimetres, in a GLB metres").optional(),
     key(276, "axes", AXES, "directions of the file's axes; without it what the file says, else `ras` in STL and PLY and `y-up` in OBJ and GLB").optional(),
+];
+
+/// Keys of `/subject/clay/from/of`: those of a subject that say where voxels come from.
+#[rustfmt::skip]
+pub(crate) const CLAY_OF: &[Key] = &[
+    key(210, "builtin", Kind::Builtin, "a subject that the program generates, one that is made of voxels; it goes before `src` and `sha256`").leaves(LeftOut::Alone),
+    key(230, "src", Kind::Address, "address of a file with a scan").optional(),
+    key(240, "sha256", Kind::Hash, "hash of the file's bytes; without `src` the reader supplies the file that has it").optional(),
+    key(250, "name", Kind::Text, "the author's name for the file"),
+    key(270, "frame", Kind::Whole, "which volume of a file that holds several, counted from 0"),
+    key(280, "raw", Kind::Object(RAW), "the layout of the voxels in a file that does not describe it").optional().unmade(),
 ];
 
 /// Keys of a tool of a clay. Its lengths are subject units.

@@ -2,20 +2,29 @@
 
 use std::sync::Arc;
 
+#[cfg(target_arch = "wasm32")]
+use super::loading::slabs_in_turn as slabs;
 use super::loading::{Post, PostingSink, hash_of};
+#[cfg(not(target_arch = "wasm32"))]
+use super::loading::{is_mesh_file, read_scan, slabs_in_threads as slabs};
 use crate::assets::{LoadEvent, Want};
 use crate::clay::{ClayError, MAX_FILE_TRIANGLES, Shaping};
-use crate::data::{Mesh, SubjectPart, SubjectSink, Surface, SurfaceError};
-use crate::document::{Clay, MeshReading, SubjectRef};
+use crate::data::{Mesh, SubjectPart, SubjectSink, Surface, SurfaceError, Volume, VolumeBuilder};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::document::Reading;
+use crate::document::{Clay, ClayStart, SubjectRef, VoxelSource};
 use crate::load::{
     Aside, FileSet, LoadError, LoadReport, MeshOptions, MeshReport, Warning, read_mesh,
 };
 use crate::math::hex;
+use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError};
 
 /// Part of the work that is done when all strokes are.
 const STROKES: f32 = 0.8;
-/// Part of beginning with a file that is done when the file is read.
+/// Part of beginning with a file or a volume that is done when that is read or made.
 const READING: f32 = 0.5;
+/// Part of the work on a clay that is done when the volume that it begins with is.
+const BEGINNING: f32 = 0.5;
 
 /// Bytes of earlier states that are kept at most, and strokes that they are of.
 const MOST_KEPT: usize = 64 << 20;
@@ -24,28 +33,56 @@ const LAST_STROKES: usize = 50;
 /// Shapes clays, and keeps what the last strokes left, so that another last stroke, or one less, does not begin anew.
 #[derive(Debug, Default)]
 pub struct ClayDesk {
-    /// What the last one begins with, if that is a file.
-    start: Option<FileStart>,
+    /// What the last one begins with, if that is a file or a part of a volume.
+    start: Option<MadeStart>,
     last: Option<Arc<Clay>>,
     /// The clay of `last` after some of its strokes, the latest last.
     kept: Vec<Shaping>,
 }
 
-/// A file that was read, and the clay of it that no stroke has touched.
+/// A file or a volume that was read, and the clay of it that no stroke has touched.
 #[derive(Debug)]
-struct FileStart {
-    sha256: [u8; 32],
-    reading: MeshReading,
+struct MadeStart {
+    /// As [`nameless`].
+    from: ClayStart,
+    /// That of the file's bytes, if there is a file.
+    sha256: Option<[u8; 32]>,
     shaping: Shaping,
     detail: f64,
 }
 
-impl FileStart {
+impl MadeStart {
     /// True if a clay begins with this, should its file be the same.
     fn is_of(&self, clay: &Clay) -> bool {
-        let is_read_so = |reading| self.reading == reading && self.detail == clay.detail;
-        clay.file().is_some_and(|mesh| is_read_so(mesh.reading))
+        self.from == nameless(&clay.from) && self.detail == clay.detail
     }
+}
+
+/// How far a start is when this part of it is made of what was read.
+fn behind_reading(part: f32) -> f32 {
+    READING + (1.0 - READING) * part
+}
+
+/// How a clay begins, whatever its file is called and wherever it lies: the bytes tell which one it is.
+fn nameless(from: &ClayStart) -> ClayStart {
+    let mut from = from.clone();
+    match &mut from {
+        ClayStart::Mesh(mesh) => {
+            (mesh.src, mesh.sha256) = (None, None);
+            mesh.name.clear();
+        }
+        ClayStart::Volume(volume) => {
+            if let VoxelSource::File {
+                src, sha256, name, ..
+            } = &mut volume.of
+            {
+                (*src, *sha256) = (None, None);
+                name.clear();
+            }
+        }
+        ClayStart::Shape(_) | ClayStart::Unknown(_) => {}
+    }
+    from
 }
 
 impl ClayDesk {
@@ -53,7 +90,7 @@ impl ClayDesk {
     /// by now, so that its bytes tell, or the hash that the document gives. The report gets the hash.
     ///
     /// # Errors
-    /// [`LoadError`] if it is no mesh, or none that a clay can be made of; also where `go_on` stops it.
+    /// [`LoadError`] if it is no mesh or scan, or none that a clay can be made of; also where `go_on` stops it.
     pub fn begin(
         &mut self,
         clay: &Clay,
@@ -61,54 +98,78 @@ impl ClayDesk {
         report: &mut LoadReport,
         go_on: &mut dyn FnMut(f32) -> bool,
     ) -> Result<(), LoadError> {
-        if let Some(start) = self.start.as_ref().filter(|start| start.is_of(clay)) {
-            let given = clay.file().and_then(|mesh| mesh.sha256.clone());
-            let wanted = given.or_else(|| hash_of(files, name));
-            if wanted.is_some_and(|wanted| wanted.eq_ignore_ascii_case(&hex(&start.sha256))) {
-                report.sha256 = Some(start.sha256);
+        let start = self.start.as_ref().filter(|start| start.is_of(clay));
+        if let Some(here) = start.and_then(|start| start.sha256) {
+            let given = clay.file().and_then(|file| file.sha256);
+            let wanted = given.map(str::to_owned);
+            let wanted = wanted.or_else(|| hash_of(files, name));
+            if wanted.is_some_and(|wanted| wanted.eq_ignore_ascii_case(&hex(&here))) {
+                report.sha256 = Some(here);
                 return Ok(());
             }
         }
         // Strokes on another start are no strokes on this one, though its address may be the same.
         *self = Self::default();
-        let reading = clay.file().map(|mesh| mesh.reading).unwrap_or_default();
-        let options = MeshOptions {
-            max_triangles: MAX_FILE_TRIANGLES as u64,
-            ..MeshOptions::from(&reading)
+        let shaping = match clay.volume() {
+            Some(meant) => {
+                let read = &mut |part| go_on(READING * part);
+                let volume = read_voxels((files, name), &meant.of, report, read)?;
+                Shaping::of_volume(clay, meant, &volume, &mut |part| {
+                    go_on(behind_reading(part))
+                })
+            }
+            None => {
+                let read = &mut |part| go_on(READING * part);
+                let mesh = read_surface((files, name), clay, report, read)?;
+                Shaping::of_mesh(clay, &mesh, &mut |part| go_on(behind_reading(part)))
+            }
         };
-        let (mesh, found) = read_mesh(files, name, &options, &mut |part| go_on(READING * part))?;
-        report.sha256 = Some(found.sha256);
-        warn(&mesh, &found, report);
-        let shaping = Shaping::of_mesh(clay, &mesh, &mut |part| {
-            go_on(READING + (1.0 - READING) * part)
-        });
         let shaping = shaping.map_err(|error| match error {
             ClayError::Stopped => LoadError::Cancelled,
             other => LoadError::Mesh {
                 message: format!("{other} ({name})"),
             },
         })?;
-        self.start = Some(FileStart {
-            sha256: found.sha256,
-            reading,
+        self.start = Some(MadeStart {
+            from: nameless(&clay.from),
+            sha256: report.sha256,
             shaping,
             detail: clay.detail,
         });
         Ok(())
     }
 
-    /// A clay that no stroke has touched.
-    fn untouched(&self, clay: &Clay) -> Result<Shaping, ClayError> {
-        match &self.start {
-            Some(start) if start.is_of(clay) => Ok(start.shaping.clone()),
-            _ => Shaping::new(clay),
+    /// A clay that no stroke has touched. That of a built-in subject is made, unless it is here.
+    fn untouched(
+        &mut self,
+        clay: &Clay,
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Result<Shaping, ClayError> {
+        if let Some(start) = self.start.as_ref().filter(|start| start.is_of(clay)) {
+            return Ok(start.shaping.clone());
         }
+        let Some(meant) = clay.volume() else {
+            return Shaping::new(clay);
+        };
+        let VoxelSource::Builtin(name) = &meant.of else {
+            return Err(ClayError::NoFile);
+        };
+        let volume = builtin_voxels(name, &mut |part| go_on(READING * part))?;
+        let make = &mut |part| go_on(behind_reading(part));
+        let shaping = Shaping::of_volume(clay, meant, &volume, make)?;
+        self.start = Some(MadeStart {
+            from: nameless(&clay.from),
+            sha256: None,
+            shaping: shaping.clone(),
+            detail: clay.detail,
+        });
+        Ok(shaping)
     }
 
     /// The hash of the file that a clay begins with, if that was read.
     fn sha256_of(&self, clay: &Clay) -> Option<String> {
         let start = self.start.as_ref().filter(|start| start.is_of(clay))?;
-        Some(hex(&start.sha256))
+        start.sha256.map(|hash| hex(&hash))
     }
 
     /// The clay as its recipe has it. `go_on` hears how far it is, 0 to 1, and stops it by `false`.
@@ -128,14 +189,20 @@ impl ClayDesk {
             .retain(|kept| common.is_some_and(|common| kept.done() <= common));
         self.last = Some(Arc::clone(clay));
         let all = clay.strokes.len();
-        let mut shaping = match self.kept.last() {
-            Some(kept) => kept.clone(),
-            None => self.untouched(clay)?,
+        let mut begun = 0.0;
+        let mut shaping = match self.kept.last().cloned() {
+            Some(kept) => kept,
+            None => self.untouched(clay, &mut |part| {
+                begun = BEGINNING;
+                go_on(BEGINNING * part)
+            })?,
         };
         self.keep(&shaping, all);
         while shaping.done() < all {
             let done = shaping.done() as f32;
-            shaping.stroke(clay, &mut |part| go_on((done + part) / all as f32))?;
+            shaping.stroke(clay, &mut |part| {
+                go_on(begun + (1.0 - begun) * (done + part) / all as f32)
+            })?;
             self.keep(&shaping, all);
         }
         // What was shaped last is always kept.
@@ -155,6 +222,94 @@ impl ClayDesk {
         let mut bytes: usize = self.kept.iter().map(Shaping::bytes).sum();
         while bytes > MOST_KEPT && self.kept.len() > 1 {
             bytes -= self.kept.remove(0).bytes();
+        }
+    }
+}
+
+/// Reads the mesh that a clay begins with. The report gets what was repaired and what is left aside.
+fn read_surface(
+    (files, name): (&mut dyn FileSet, &str),
+    clay: &Clay,
+    report: &mut LoadReport,
+    go_on: &mut dyn FnMut(f32) -> bool,
+) -> Result<Mesh, LoadError> {
+    let reading = clay.mesh().map(|mesh| mesh.reading).unwrap_or_default();
+    let options = MeshOptions {
+        max_triangles: MAX_FILE_TRIANGLES as u64,
+        ..MeshOptions::from(&reading)
+    };
+    let (mesh, found) = read_mesh(files, name, &options, go_on)?;
+    report.sha256 = Some(found.sha256);
+    warn(&mesh, &found, report);
+    Ok(mesh)
+}
+
+/// Reads the scan that a clay begins with, whole.
+#[cfg(not(target_arch = "wasm32"))]
+fn read_voxels(
+    (files, name): (&mut dyn FileSet, &str),
+    of: &VoxelSource,
+    report: &mut LoadReport,
+    go_on: &mut dyn FnMut(f32) -> bool,
+) -> Result<Volume, LoadError> {
+    let reading = match of {
+        VoxelSource::Builtin(_) => Reading::default(),
+        VoxelSource::File { reading, .. } => reading.clone(),
+    };
+    let cannot = |what: String| LoadError::Unsupported {
+        name: name.to_owned(),
+        what,
+    };
+    if is_mesh_file(files, name, &reading)? {
+        return Err(cannot(
+            "a mesh, and this clay begins with a part of a scan: name a mesh by `from` itself"
+                .to_owned(),
+        ));
+    }
+    let mut builder = VolumeBuilder::with_progress(go_on);
+    read_scan(files, name, &reading, &mut builder, report)?;
+    builder.finish().map_err(|error| cannot(error.to_string()))
+}
+
+/// What the page says of a clay of a scan: its readers of scans are a program of their own, and the shaper of clays goes
+/// without them.
+#[cfg(target_arch = "wasm32")]
+pub const NO_SCANS: &str = "a clay of a scan is not drawn in the page yet: write it with `fabrica clay`, and begin with that mesh";
+
+#[cfg(target_arch = "wasm32")]
+fn read_voxels(
+    (_, name): (&mut dyn FileSet, &str),
+    _: &VoxelSource,
+    _: &mut LoadReport,
+    _: &mut dyn FnMut(f32) -> bool,
+) -> Result<Volume, LoadError> {
+    Err(LoadError::Unsupported {
+        name: name.to_owned(),
+        what: NO_SCANS.to_owned(),
+    })
+}
+
+/// A built-in subject as finely as it is normally shown, whatever this device could hold.
+fn builtin_voxels(name: &str, go_on: &mut dyn FnMut(f32) -> bool) -> Result<Volume, ClayError> {
+    let cannot = |error: SubjectError| ClayError::NoSurface(error.to_string());
+    let generator = Generator::new(name, FINE_RESOLUTION).map_err(cannot)?;
+    let mut builder = VolumeBuilder::new();
+    let header = SubjectPart::header(generator.header());
+    builder.take(header).map_err(ClayError::NoSurface)?;
+    let whole = generator.header().grid.voxel_count() as f32;
+    let (mut done, mut refused) = (0, None);
+    let is_whole = slabs(&generator, Generator::SLAB, &mut |slab| {
+        done += slab.values.len();
+        let mut parts = slab.into_parts().into_iter();
+        refused = parts.find_map(|part| builder.take(part).err());
+        refused.is_none() && go_on(done as f32 / whole)
+    });
+    match refused {
+        Some(why) => Err(ClayError::NoSurface(why)),
+        None if !is_whole => Err(ClayError::Stopped),
+        None => {
+            let built = builder.finish();
+            built.map_err(|error| ClayError::NoSurface(error.to_string()))
         }
     }
 }
@@ -255,6 +410,7 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::clay::Check;
     use crate::document::{ClayTool, Document};
     use crate::load::MemoryFiles;
 
@@ -402,6 +558,87 @@ mod tests {
         match &document.illustration().subject {
             SubjectRef::Clay(clay) => Arc::clone(clay),
             other => panic!("{other:?}"),
+        }
+    }
+
+    /// A clay that begins with a part of a volume.
+    fn of_volume(from: &str) -> Arc<Clay> {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "from": { FROM }, "detail": 0.05,
+            "tools": [{ "radius": 0.2 }], "strokes": [{ "path": [0, 0, 450, 0, 0, 200] }] } } }"#;
+        let document = Document::from_json(&text.replace("FROM", from)).unwrap();
+        assert_eq!(document.notices(), []);
+        match &document.illustration().subject {
+            SubjectRef::Clay(clay) => Arc::clone(clay),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// The ball in the cube is round and 50 mm wide.
+    #[test]
+    fn a_clay_of_a_built_in_subject_is_made_where_it_is_shaped() {
+        let clay = of_volume(r#""of": { "builtin": "cube" }, "segment": "ball""#);
+        let mut desk = ClayDesk::default();
+        let mut heard = Vec::new();
+        let shaped = desk.shape(&clay, &mut |part| {
+            heard.push(part);
+            true
+        });
+        let pulled = shaped.unwrap().shaped();
+        assert!(heard.is_sorted(), "{heard:?}");
+        let start = desk.shape(&clay.cut(0), &mut |_| panic!("it is here"));
+        let start = start.unwrap().shaped();
+        assert!(pulled.positions.len() > start.positions.len());
+        for (shaped, volume) in [(&start, true), (&pulled, false)] {
+            let found = Check::of(&shaped.positions, &shaped.triangles, None);
+            assert!(found.is_two_manifold(), "{}", found.lines());
+            assert_eq!((found.euler, found.pieces, found.border_edges), (2, 1, 0));
+            if volume {
+                let cube = builtin_voxels("cube", &mut |_| true).unwrap();
+                let labels = cube.segmentation.unwrap().labels;
+                let count = labels.iter().filter(|label| **label == 4).count() as f64;
+                let wanted = count * cube.grid.spacing_mm().element_product();
+                let made = found.volume.unwrap() * shaped.space.mm_per_unit.powi(3);
+                assert!((made / wanted - 1.0).abs() < 0.05, "{made} of {wanted}");
+            }
+        }
+        assert!((start.space.mm_per_unit - 50.0).abs() < 1.0);
+        assert!(start.space.middle_mm.length() < 0.1);
+        // As events, without a file.
+        let mut events = Vec::new();
+        make_clay(&mut desk, &clay, &mut |event: LoadEvent| {
+            events.push(event);
+            true
+        });
+        assert!(surface(&events).is_some());
+        assert!(matches!(
+            events.last(),
+            Some(LoadEvent::Done { sha256: None })
+        ));
+        let gone = of_volume(r#""of": { "builtin": "cube" }, "segment": "stone""#);
+        let gone = desk.shape(&gone, &mut |_| true).unwrap_err().to_string();
+        assert!(gone.contains("top, middle, bottom, ball"), "{gone}");
+        let none = of_volume(r#""of": { "builtin": "cube" }, "iso": 1e9"#);
+        let none = desk.shape(&none, &mut |_| true).unwrap_err().to_string();
+        assert!(none.contains("1000000000"), "{none}");
+        let mut fresh = ClayDesk::default();
+        let stopped = fresh.shape(&clay, &mut |part| part < 0.1);
+        assert_eq!(stopped.unwrap_err(), ClayError::Stopped);
+    }
+
+    /// What documents take for voxels is what the program makes of voxels.
+    #[test]
+    fn clays_begin_with_every_built_in_subject_of_voxels() {
+        let of = |name: &str| {
+            let text =
+                r#"{"fabrica":1,"subject":{"clay":{"from":{"of":{"builtin":"NAME"},"iso":0}}}}"#;
+            Document::from_json(&text.replace("NAME", name))
+        };
+        for name in crate::subjects::names() {
+            assert_eq!(of(name).unwrap().notices(), [], "{name}");
+        }
+        let figures = crate::document::DRAWN_FIGURES.iter();
+        for name in crate::subjects::mesh_names().iter().chain(figures) {
+            assert!(of(name).is_err(), "{name} has no voxels");
         }
     }
 

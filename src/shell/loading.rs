@@ -110,6 +110,41 @@ pub fn slabs_in_turn(
     true
 }
 
+/// Makes the slabs of a generator in as many threads as there are cores, and hands them over in order.
+#[cfg(not(target_arch = "wasm32"))]
+pub fn slabs_in_threads(
+    generator: &Generator,
+    thickness: u32,
+    take: &mut dyn FnMut(Slab) -> bool,
+) -> bool {
+    let n_threads = std::thread::available_parallelism().map_or(2, |n| n.get().min(16)) as u32;
+    let n_slabs = generator.slice_count().div_ceil(thickness);
+    std::thread::scope(|scope| {
+        // Each thread makes every nth slab and waits when it is two ahead, so that little is held.
+        let outputs: Vec<_> = (0..n_threads)
+            .map(|first| {
+                let (sender, receiver) = std::sync::mpsc::sync_channel(2);
+                scope.spawn(move || {
+                    for slab in (first..n_slabs).step_by(n_threads as usize) {
+                        let start = slab * thickness;
+                        if sender
+                            .send(generator.slab(start..start + thickness))
+                            .is_err()
+                        {
+                            return;
+                        }
+                    }
+                });
+                receiver
+            })
+            .collect();
+        (0..n_slabs).all(|slab| {
+            let output = outputs.get((slab % n_threads) as usize);
+            output.and_then(|o| o.recv().ok()).is_some_and(&mut *take)
+        })
+    })
+}
+
 /// Endings of files that may hold bare voxels.
 const RAW_ENDINGS: [&str; 7] = [".raw", ".bin", ".dat", ".vol", ".img", ".data", ".zraw"];
 

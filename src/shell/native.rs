@@ -5,7 +5,7 @@ use std::io::Read as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
@@ -14,7 +14,9 @@ use super::clays::{ClayDesk, make_clay, make_clay_of_file};
 use super::command_line::ReadingFlags;
 use super::figures::read_file;
 use super::files::{Folder, Picked, local, mesh_set};
-use super::loading::{make_subject, read_segments, resolutions, take_segmentations, wanted_file};
+use super::loading::{
+    make_subject, read_segments, resolutions, slabs_in_threads, take_segmentations, wanted_file,
+};
 use super::meshes::make_mesh;
 use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Shipped, Start, Ticket};
 use crate::assets::{
@@ -25,7 +27,6 @@ use crate::document::{Clay, Document, RawVoxels, Reading, is_drawn_name};
 use crate::load::{is_field, mesh_among, read_field};
 use crate::render::Gpu;
 use crate::subjects::mesh_names;
-use crate::subjects::{Generator, Slab};
 
 /// A larger file is no document (the contract's limit is 1 MiB), and is opened as a scan.
 const MAX_DOCUMENT_BYTES: u64 = 2 * 1024 * 1024;
@@ -491,40 +492,6 @@ fn start_bending(
         }
     });
     asks
-}
-
-/// Makes the slabs of a generator in as many threads as there are cores, and hands them over in order.
-fn slabs_in_threads(
-    generator: &Generator,
-    thickness: u32,
-    take: &mut dyn FnMut(Slab) -> bool,
-) -> bool {
-    let n_threads = std::thread::available_parallelism().map_or(2, |n| n.get().min(16)) as u32;
-    let n_slabs = generator.slice_count().div_ceil(thickness);
-    std::thread::scope(|scope| {
-        // Each thread makes every nth slab and waits when it is two ahead, so that little is held.
-        let outputs: Vec<_> = (0..n_threads)
-            .map(|first| {
-                let (sender, receiver) = sync_channel(2);
-                scope.spawn(move || {
-                    for slab in (first..n_slabs).step_by(n_threads as usize) {
-                        let start = slab * thickness;
-                        if sender
-                            .send(generator.slab(start..start + thickness))
-                            .is_err()
-                        {
-                            return;
-                        }
-                    }
-                });
-                receiver
-            })
-            .collect();
-        (0..n_slabs).all(|slab| {
-            let output = outputs.get((slab % n_threads) as usize);
-            output.and_then(|o| o.recv().ok()).is_some_and(&mut *take)
-        })
-    })
 }
 
 /// The text of a file that begins as a document or a link does.

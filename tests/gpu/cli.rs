@@ -716,6 +716,99 @@ fn a_clay_begins_with_a_file() {
 }
 
 #[test]
+fn a_clay_begins_with_a_part_of_a_volume() {
+    let folder = folder();
+    let doc = |name: &str, from: &str| {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "from": { FROM }, "detail": 0.05,
+            "tools": [{ "radius": 0.2 }], "strokes": [{ "path": [0, 0, 450, 0, 0, 200] }] } } }"#;
+        write(&folder, name, text.replace("FROM", from))
+    };
+    let check = |args: &[&str]| -> Value {
+        let args = [&["clay", "--check", "--json"], args].concat();
+        serde_json::from_str(&fabrica(&args).ok().out).expect("JSON")
+    };
+    let is_whole = |made: &Value| {
+        let facts = ["euler", "pieces", "border_edges", "bad_edges"];
+        assert_eq!(facts.map(|fact| made[fact].clone()), [2, 1, 0, 0], "{made}");
+    };
+    // The ball in the cube, 50 mm wide, about the middle.
+    let cube = doc(
+        "cube.json",
+        r#""of": { "builtin": "cube" }, "segment": "ball""#,
+    );
+    let made = check(&[text(&cube)]);
+    is_whole(&made);
+    is_whole(&check(&[text(&cube), "--strokes", "0"]));
+    let info = fabrica(&["info", text(&cube)]).ok().out;
+    assert!(
+        info.contains("start: segment ball of built-in cube\n"),
+        "{info}"
+    );
+    let picture = folder.path().join("clay.png");
+    let render =
+        |doc: &Path| fabrica(&["render", text(doc), "-o", text(&picture), "--size", "64x48"]);
+    render(&cube).ok();
+    let args = ["probe", text(&cube), "--object"];
+    let inside = fabrica_with(Path::new("."), &args, b"0,0,0.55\n0.4,0.4,0.4\n")
+        .ok()
+        .out;
+    let lines: Vec<&str> = inside.lines().collect();
+    assert!(
+        lines[0].ends_with(",clay") && !lines[1].ends_with(",clay"),
+        "{inside}"
+    );
+    let stone = doc(
+        "stone.json",
+        r#""of": { "builtin": "cube" }, "segment": "stone""#,
+    );
+    let high = doc("high.json", r#""of": { "builtin": "cube" }, "iso": 1e9"#);
+    for outcome in [fabrica(&["clay", text(&stone), "--check"]), render(&stone)] {
+        outcome.failed(&["stone", "top, middle, bottom, ball"]);
+    }
+    fabrica(&["clay", text(&high), "--check"]).failed(&["1000000000", "they lie between"]);
+
+    // A scan, at its address, by its hash, and in place of another one.
+    let ball = |radius: f64| {
+        nifti([30, 30, 30], |x, y, z| {
+            let square = |at: i16| (f64::from(at) - 14.5).powi(2);
+            (1000.0 + 50.0 * (radius - (square(x) + square(y) + square(z)).sqrt())) as i16
+        })
+    };
+    let scan = write(&folder, "scan.nii", ball(10.0));
+    let other = write(&folder, "other.nii", ball(7.0));
+    let wanted = hash(&ball(10.0));
+    let at_src = doc("at.json", r#""of": { "src": "scan.nii" }, "iso": 1000"#);
+    let by = format!(r#""of": {{ "sha256": "{wanted}", "name": "Ball" }}, "iso": 1000"#);
+    let by_hash = doc("by.json", &by);
+    let made = check(&[text(&at_src)]);
+    is_whole(&made);
+    let given = ["--mesh", text(&other), "--mesh", text(&scan)];
+    assert_eq!(made, check(&[&[text(&by_hash)], &given[..]].concat()));
+    assert_eq!(made, check(&[text(&by_hash), "--subject", text(&scan)]));
+    assert_ne!(made, check(&[text(&at_src), "--subject", text(&other)]));
+    let ply = folder.path().join("start.ply");
+    fabrica(&["clay", text(&at_src), "--strokes", "0", "-o", text(&ply)]).ok();
+    assert!(ply.exists());
+    render(&at_src).ok();
+    fabrica(&["clay", text(&by_hash), "--check"]).failed(&["Ball", &wanted, "--subject"]);
+    let wrong = format!(r#""of": {{ "src": "other.nii", "sha256": "{wanted}" }}, "iso": 1000"#);
+    let wrong = doc("wrong.json", &wrong);
+    for outcome in [fabrica(&["clay", text(&wrong), "--check"]), render(&wrong)] {
+        outcome.failed(&["other.nii", "another file than the document means"]);
+    }
+    let bare = doc(
+        "bare.json",
+        r#""of": { "src": "scan.nii" }, "segment": "bone""#,
+    );
+    fabrica(&["clay", text(&bare), "--check"]).failed(&["bone", "it has none", "scan.nii"]);
+    write(&folder, "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let mesh = doc("mesh.json", r#""of": { "src": "mesh.obj" }, "iso": 1"#);
+    fabrica(&["clay", text(&mesh), "--check"]).failed(&["a mesh", "mesh.obj"]);
+    let clay = doc("clay.json", r#""of": { "clay": {} }, "iso": 1"#);
+    fabrica(&["clay", text(&clay), "--check"]).failed(&["/subject/clay/from/of/clay"]);
+}
+
+#[test]
 fn pictures_are_described_in_words() {
     const LESSON: &str = r#"{"fabrica":1,"title":"Frucht","lang":"de-AT","subject":{"builtin":"tomato"},
         "templates":[{"kind":"peel","at":[0,0.3,0],"rotate":[-0.7071,0,0,0.7071],"size":[0.8,0.7,0.44],

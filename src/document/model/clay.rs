@@ -1,7 +1,9 @@
 //! A clay: a starting shape, tools, and the strokes that shape it (spec/sweepers.md, B). The document holds this recipe
 //! and never the mesh.
 
+use super::clay_volume::{ClayFile, ClayVolume, VoxelSource};
 use super::mesh::{MeshParts, MeshReading, MeshRef};
+use super::reading::Reading;
 use crate::displace::ToolShape;
 use std::sync::Arc;
 
@@ -60,29 +62,74 @@ impl Clay {
         Some(shared.count())
     }
 
+    /// The file that it begins with, a mesh or a scan; `None` where it begins with something else.
+    pub fn file(&self) -> Option<ClayFile<'_>> {
+        let (src, sha256, name) = match &self.from {
+            ClayStart::Mesh(mesh) => (&mesh.src, &mesh.sha256, &mesh.name),
+            ClayStart::Volume(volume) => match &volume.of {
+                VoxelSource::Builtin(_) => return None,
+                VoxelSource::File {
+                    src, sha256, name, ..
+                } => (src, sha256, name),
+            },
+            ClayStart::Shape(_) | ClayStart::Unknown(_) => return None,
+        };
+        Some(ClayFile {
+            src: src.as_deref(),
+            sha256: sha256.as_deref(),
+            name,
+        })
+    }
+
     /// The mesh file that it begins with; `None` where it begins with something else.
-    pub fn file(&self) -> Option<&MeshRef> {
+    pub fn mesh(&self) -> Option<&MeshRef> {
         match &self.from {
             ClayStart::Mesh(mesh) => Some(mesh),
-            ClayStart::Shape(_) | ClayStart::Unknown(_) => None,
+            ClayStart::Shape(_) | ClayStart::Volume(_) | ClayStart::Unknown(_) => None,
         }
     }
 
-    /// This clay with another file in place of what it begins with, read as that was. The strokes stay.
+    /// The voxels that it begins with; `None` where it begins with something else.
+    pub fn volume(&self) -> Option<&ClayVolume> {
+        match &self.from {
+            ClayStart::Volume(volume) => Some(volume),
+            ClayStart::Shape(_) | ClayStart::Mesh(_) | ClayStart::Unknown(_) => None,
+        }
+    }
+
+    /// This clay with another file in place of what it begins with, read as that was: a scan in place of voxels, else a
+    /// mesh. The strokes stay.
     #[must_use]
     pub fn with_file(&self, src: Option<String>, sha256: Option<String>) -> Self {
-        let reading = self.file().map(|mesh| mesh.reading);
-        Self {
-            from: ClayStart::Mesh(MeshRef {
+        let from = match &self.from {
+            ClayStart::Volume(volume) => ClayStart::Volume(Box::new(ClayVolume {
+                of: VoxelSource::File {
+                    src,
+                    sha256,
+                    name: String::new(),
+                    reading: match &volume.of {
+                        VoxelSource::Builtin(_) => Reading::default(),
+                        VoxelSource::File { reading, .. } => reading.clone(),
+                    },
+                },
+                ..ClayVolume::clone(volume)
+            })),
+            other => ClayStart::Mesh(MeshRef {
                 index: 0,
                 src,
                 sha256,
                 name: String::new(),
-                reading: reading.unwrap_or(MeshReading {
-                    parts: MeshParts::Whole,
-                    ..MeshReading::default()
-                }),
+                reading: match other {
+                    ClayStart::Mesh(mesh) => mesh.reading,
+                    _ => MeshReading {
+                        parts: MeshParts::Whole,
+                        ..MeshReading::default()
+                    },
+                },
             }),
+        };
+        Self {
+            from,
             ..self.clone()
         }
     }
@@ -112,6 +159,8 @@ pub enum ClayStart {
     Shape(ClayShape),
     /// A mesh file.
     Mesh(MeshRef),
+    /// A segment or an isosurface of a volume.
+    Volume(Box<ClayVolume>),
     /// What this version makes no clay of, by its name or key in the document: it is kept.
     Unknown(String),
 }

@@ -1,6 +1,7 @@
 //! Plain types: what a document means. No JSON.
 
 mod clay;
+mod clay_volume;
 mod curve;
 pub mod figure;
 mod illustration;
@@ -9,6 +10,7 @@ mod look;
 mod mesh;
 mod object;
 mod preset;
+mod reading;
 mod recipe;
 mod script;
 mod style;
@@ -22,6 +24,7 @@ pub use crate::displace::{
     ParamValue, PathKey, SweepTool, SweepTools, TemplateKind, TemplateSpec, ToolShape,
 };
 pub use clay::{Clay, ClayKey, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool};
+pub use clay_volume::{ClayFile, ClayVolume, VoxelPart, VoxelSource};
 pub use curve::Curve;
 pub use illustration::{Camera, Caption, Control, ControlRange, FIGURE_FRONT, Illustration, Step};
 pub use light::Light;
@@ -31,12 +34,13 @@ pub use look::{
 pub use mesh::{MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, SubjectBox};
 pub use object::{ObjectPlacement, ObjectSource, SceneObject};
 pub use preset::{PRESETS, Preset, PresetSubject, preset, presets};
+pub use reading::{RawVoxels, Reading};
 pub use recipe::{CleanStep, Recipe, RecipeSource, Stroke};
 pub use script::needs_shaping;
 pub use style::{Ghost, GhostBy, Hatch, HatchBy, Outline, Stipple, Style, Tone};
 pub use style_preset::{STYLE_PRESETS, StylePreset, style_preset};
 pub(in crate::document) use subject::DRAWN;
-pub use subject::{RawVoxels, Reading, SegmentsRef, SubjectRef, is_drawn_name};
+pub use subject::{SegmentsRef, SubjectRef, is_drawn_name};
 pub use surface::{BodyKind, Layer, SurfaceChange, SurfaceLook};
 pub use template::{
     Align, Constrain, ConstrainBy, FieldRef, FoundObject, NotCarving, ObjectRef, PlacedTemplate,

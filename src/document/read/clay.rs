@@ -2,13 +2,14 @@
 
 use super::object::{Object, number, wrong};
 use super::reader::Reader;
-use crate::document::limits::MAX_BYTES;
+use crate::document::limits::{BUILTIN_SUBJECTS, DEFAULT_SUBJECT, MAX_BYTES, MESH_SUBJECTS};
 use crate::document::model::{
-    Clay, ClayKey, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool, MeshRef,
+    Clay, ClayKey, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool, ClayVolume, MeshRef,
+    Reading, VoxelPart, VoxelSource, is_drawn_name,
 };
 use crate::document::schema::{CLAY, Kind};
 use crate::document::text::pointer::join;
-use crate::document::text::{DocumentError, NoticeKind, json};
+use crate::document::text::{DocumentError, NoticeKind, json, shortened};
 use glam::DVec3;
 use serde_json::Value;
 
@@ -66,13 +67,20 @@ impl Reader {
             reading: self.reading_as_whole(from)?,
         };
         let shape = from.text("shape")?;
-        if from.map.contains_key("of") {
-            // What is said of it is not known either.
-            let what = "a clay out of another subject is";
-            self.note(from.at("of"), NoticeKind::NotDrawn { what });
-            return Ok(ClayStart::Unknown("of".to_owned()));
-        }
         self.unknown_keys(from);
+        let volume = self.clay_volume(from)?;
+        if from.map.contains_key("of") {
+            let others = ["shape", "src", "sha256", "name", "units", "axes"];
+            self.left_aside(from, &others, "a clay of a volume");
+            let Some(volume) = volume else {
+                let what = "a clay of a volume of which neither a segment nor a value is named is";
+                self.note(from.at("of"), NoticeKind::NotDrawn { what });
+                return Ok(ClayStart::Unknown("of".to_owned()));
+            };
+            return Ok(ClayStart::Volume(Box::new(volume)));
+        }
+        let others = ["segment", "iso", "walls"];
+        self.left_aside(from, &others, "a clay of no volume");
         if mesh.src.is_some() || mesh.sha256.is_some() {
             if shape.is_some() {
                 let taken = "the clay of a file";
@@ -85,6 +93,76 @@ impl Reader {
             (None, Some(name)) => ClayStart::Unknown(name.to_owned()),
             (index, _) => ClayStart::Shape(ClayShape::ALL[index.unwrap_or(0)]),
         })
+    }
+
+    /// The part of a volume that is meant; `None` where none is named.
+    fn clay_volume(&mut self, from: &Object<'_>) -> Result<Option<ClayVolume>, DocumentError> {
+        let of = self.voxel_source(&from.child("of")?)?;
+        let segment = from.text("segment")?.filter(|name| !name.is_empty());
+        let iso = from
+            .map
+            .contains_key("iso")
+            .then(|| self.exact(from, "iso"));
+        let iso = iso.transpose()?;
+        let has_all_walls = self.choice(from, "walls")? == 1;
+        let part = match (segment, iso) {
+            (Some(name), iso) => {
+                if iso.is_some() {
+                    self.left_aside(from, &["iso"], "the segment");
+                }
+                VoxelPart::Segment(name.to_owned())
+            }
+            (None, Some(value)) => VoxelPart::Iso(value),
+            (None, None) => return Ok(None),
+        };
+        Ok(Some(ClayVolume {
+            of,
+            part,
+            has_all_walls,
+        }))
+    }
+
+    /// Where voxels come from. What has none is refused: a clay, meshes, figures.
+    fn voxel_source(&mut self, of: &Object<'_>) -> Result<VoxelSource, DocumentError> {
+        const VOXELS: &str = "a built-in subject made of voxels, or a scan";
+        for key in ["clay", "meshes"] {
+            if let Some(found) = of.map.get(key) {
+                return Err(wrong(&of.at(key), VOXELS, found));
+            }
+        }
+        self.unknown_keys(of);
+        let builtin = of.text("builtin")?;
+        if let Some((name, found)) = builtin.zip(of.map.get("builtin")) {
+            if MESH_SUBJECTS.contains(&name) || is_drawn_name(name) {
+                return Err(wrong(&of.at("builtin"), VOXELS, found));
+            }
+            if !BUILTIN_SUBJECTS.contains(&name) {
+                let found = shortened(name, 40);
+                self.note(of.at("builtin"), NoticeKind::UnknownSubject { found });
+            }
+        }
+        let raw = of.map.contains_key("raw").then(|| of.child("raw"));
+        let raw = raw.transpose()?.map(|raw| self.raw(&raw)).transpose()?;
+        let file = VoxelSource::File {
+            src: of.text("src")?.map(str::to_owned),
+            sha256: of.hash()?,
+            name: of.string("name")?,
+            reading: Reading {
+                frame: of.whole("frame")?,
+                raw,
+                ..Reading::default()
+            },
+        };
+        let has_file = ["src", "sha256"]
+            .iter()
+            .any(|key| of.map.contains_key(*key));
+        if builtin.is_none() && has_file {
+            return Ok(file);
+        }
+        let others = ["src", "sha256", "frame", "raw"];
+        self.left_aside(of, &others, "the built-in subject");
+        let name = builtin.unwrap_or(DEFAULT_SUBJECT);
+        Ok(VoxelSource::Builtin(name.to_owned()))
     }
 
     fn clay_tool(&mut self, object: &Object<'_>) -> Result<ClayTool, DocumentError> {

@@ -39,7 +39,7 @@ impl Reader {
     }
 
     /// Names those of these keys that are there, since another source is shown.
-    fn left_aside(&mut self, object: &Object<'_>, keys: &[&str], taken: &'static str) {
+    pub(super) fn left_aside(&mut self, object: &Object<'_>, keys: &[&str], taken: &'static str) {
         for key in keys.iter().filter(|key| object.map.contains_key(**key)) {
             self.note(object.at(key), NoticeKind::LeftAside { taken });
         }
@@ -120,7 +120,7 @@ impl Reader {
         })
     }
 
-    fn raw(&mut self, object: &Object<'_>) -> Result<RawVoxels, DocumentError> {
+    pub(super) fn raw(&mut self, object: &Object<'_>) -> Result<RawVoxels, DocumentError> {
         self.unknown_keys(object);
         let size = self.numbers(object, "size")?.map(|side| side as u32);
         let element = RawVoxels::ELEMENTS[self.choice(object, "type")?];

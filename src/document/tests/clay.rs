@@ -2,7 +2,7 @@
 
 use crate::document::{
     Clay, ClayKey, ClayShape, ClayStart, ClayTool, Document, Edit, Illustration, SubjectRef,
-    ToolShape, clay_from_text, clay_to_text,
+    ToolShape, VoxelPart, VoxelSource, clay_from_text, clay_to_text,
 };
 use serde_json::{Value, json};
 
@@ -190,7 +190,7 @@ fn a_clay_may_be_made_from_a_file() {
     let again = clay_from_text(&clay_to_text(clay(&document)));
     assert_eq!(again.as_ref(), Ok(clay(&document)));
     let other = clay(&document).with_file(Some("a.stl".to_owned()), None);
-    let file = other.file().expect("a file");
+    let file = other.mesh().expect("a file");
     assert_eq!(
         (file.src.as_deref(), file.sha256.as_ref()),
         (Some("a.stl"), None)
@@ -205,11 +205,8 @@ fn a_clay_may_be_made_from_a_file() {
     assert!(notices(&document)[0].starts_with("/subject/clay/from/shape: "));
     for (from, name, at) in [
         (json!({ "shape": "egg" }), "egg", "from/shape"),
-        (
-            json!({ "of": { "builtin": "head" }, "segment": "skin" }),
-            "of",
-            "from/of",
-        ),
+        // What is meant of it is not said.
+        (json!({ "of": { "builtin": "torso" } }), "of", "from/of"),
     ] {
         let document = right(json!({ "from": from }));
         assert_eq!(clay(&document).from, ClayStart::Unknown(name.to_owned()));
@@ -222,6 +219,159 @@ fn a_clay_may_be_made_from_a_file() {
         );
         assert_eq!(document.value()["subject"]["clay"]["from"], from, "kept");
     }
+}
+
+#[test]
+fn a_clay_may_begin_with_a_part_of_a_volume() {
+    let volume_of = |from: &Value| {
+        let document = right(json!({ "from": from }));
+        let volume = clay(&document).volume().expect("a volume").clone();
+        (document, volume)
+    };
+    let skin = json!({ "of": { "builtin": "head" }, "segment": "skin" });
+    let (document, volume) = volume_of(&skin);
+    assert_eq!(document.notices(), []);
+    assert_eq!(volume.of, VoxelSource::Builtin("head".to_owned()));
+    assert_eq!(volume.part, VoxelPart::Segment("skin".to_owned()));
+    assert!(!volume.has_all_walls);
+    let subject = &document.illustration().subject;
+    assert!(!subject.has_file() && subject.is_made() && subject.src().is_none());
+    assert!(clay(&document).file().is_none() && clay(&document).mesh().is_none());
+    // What stands at its default is left out; the head is what goes without saying.
+    let text = r#"{"fabrica":1,"subject":{"clay":{"from":{"of":{},"segment":"skin"}}}}"#;
+    assert_eq!(document.to_json_compact(), text);
+    assert_eq!(Document::from_json(text), Ok(document));
+
+    let sha256 = "c".repeat(64);
+    let whole = json!({ "of": { "sha256": sha256, "src": "ct.raw", "name": "Chest", "frame": 2,
+        "raw": { "size": [4, 5, 6], "type": "int16" } }, "iso": 300.5, "walls": "all" });
+    let (document, volume) = volume_of(&whole);
+    assert_eq!(document.notices(), []);
+    assert_eq!(
+        document.value()["subject"]["clay"]["from"],
+        whole,
+        "no key is lost"
+    );
+    assert_eq!(
+        (volume.part, volume.has_all_walls),
+        (VoxelPart::Iso(300.5), true)
+    );
+    let VoxelSource::File { reading, .. } = &volume.of else {
+        panic!("a file: {:?}", volume.of)
+    };
+    assert_eq!(reading.frame, 2);
+    assert_eq!(reading.raw.as_ref().map(|raw| raw.size), Some([4, 5, 6]));
+    let file = clay(&document).file().expect("a file");
+    assert_eq!(
+        (file.src, file.sha256, file.name),
+        (Some("ct.raw"), Some(sha256.as_str()), "Chest")
+    );
+    let subject = &document.illustration().subject;
+    assert!(subject.has_file());
+    assert_eq!(
+        (subject.src(), subject.supplied_sha256()),
+        (Some("ct.raw"), None)
+    );
+    let supplied = json!({ "of": { "sha256": sha256 }, "iso": 0 });
+    let (document, volume) = volume_of(&supplied);
+    let subject = &document.illustration().subject;
+    assert_eq!(
+        (subject.src(), subject.supplied_sha256()),
+        (None, Some(sha256.as_str()))
+    );
+    assert_eq!(volume.part, VoxelPart::Iso(0.0), "0 is a value");
+    assert!(document.to_json_compact().contains(r#""iso":0"#));
+
+    // As the part of the page gets it, as an edit writes it, and with another file.
+    for from in [&skin, &whole, &supplied] {
+        let (document, volume) = volume_of(from);
+        let again = clay_from_text(&clay_to_text(clay(&document)));
+        assert_eq!(again.as_ref(), Ok(clay(&document)));
+        let edit = Edit::SetSubject(document.illustration().subject.clone());
+        let written = edit.apply(&right(json!({}))).expect("it takes it");
+        assert_eq!(clay(&written), clay(&document));
+        let other = clay(&document).with_file(Some("b.nii".to_owned()), None);
+        let file = other.file().expect("a file");
+        assert_eq!(
+            (file.src, file.sha256, file.name),
+            (Some("b.nii"), None, "")
+        );
+        let other = other.volume().expect("a volume");
+        assert_eq!(
+            (&other.part, other.has_all_walls),
+            (&volume.part, volume.has_all_walls)
+        );
+    }
+
+    // What goes beside something else, and what this version does not know, is named.
+    for (from, at) in [
+        (
+            json!({ "of": {}, "segment": "skin", "iso": 3 }),
+            "iso: the segment is shown",
+        ),
+        (
+            json!({ "of": {}, "iso": 3, "shape": "cube" }),
+            "shape: a clay of a volume is shown",
+        ),
+        (
+            json!({ "of": {}, "iso": 3, "src": "a.stl" }),
+            "src: a clay of a volume is shown",
+        ),
+        (
+            json!({ "of": {}, "iso": 3, "units": "cm" }),
+            "units: a clay of a volume is shown",
+        ),
+        (
+            json!({ "shape": "cube", "iso": 3 }),
+            "iso: a clay of no volume is shown",
+        ),
+        (
+            json!({ "src": "a.stl", "segment": "skin" }),
+            "segment: a clay of no volume is shown",
+        ),
+        (
+            json!({ "walls": "all" }),
+            "walls: a clay of no volume is shown",
+        ),
+        (
+            json!({ "of": {}, "iso": 3, "walls": "some" }),
+            "walls: this version does not know “some”",
+        ),
+        (json!({ "of": {}, "iso": 1e300 }), "iso: 1"),
+        (
+            json!({ "of": {}, "iso": 3, "later": 1 }),
+            "later: this version does not know this key",
+        ),
+        (
+            json!({ "of": { "later": 1 }, "iso": 3 }),
+            "of/later: this version does not know this key",
+        ),
+        (
+            json!({ "of": { "builtin": "tooth" }, "iso": 3 }),
+            "of/builtin: this version does not know",
+        ),
+        (
+            json!({ "of": { "builtin": "head", "src": "a.nii" }, "iso": 3 }),
+            "of/src: the built-in subject is shown",
+        ),
+        (
+            json!({ "of": { "frame": 1 }, "iso": 3 }),
+            "of/frame: the built-in subject is shown",
+        ),
+        (
+            json!({ "of": { "src": "a.nii" } }),
+            "of: a clay of a volume of which neither",
+        ),
+    ] {
+        let document = right(json!({ "from": from }));
+        let [notice] = &notices(&document)[..] else {
+            panic!("one notice of {from}: {:#?}", notices(&document))
+        };
+        let expected = format!("/subject/clay/from/{at}");
+        assert!(notice.starts_with(&expected), "{notice} for {expected}");
+    }
+    let unnamed = right(json!({ "from": { "of": {}, "segment": "" } }));
+    assert_eq!(clay(&unnamed).from, ClayStart::Unknown("of".to_owned()));
 }
 
 #[test]
@@ -355,6 +505,50 @@ fn what_is_no_clay_is_refused_by_its_pointer() {
         (json!({ "from": { "shape": 3 } }), "from/shape"),
         (json!({ "from": { "sha256": "no" } }), "from/sha256"),
         (json!({ "from": { "src": 3 } }), "from/src"),
+        (json!({ "from": { "of": "head", "iso": 1 } }), "from/of"),
+        (json!({ "from": { "of": [], "iso": 1 } }), "from/of"),
+        (
+            json!({ "from": { "of": { "clay": {} }, "iso": 1 } }),
+            "from/of/clay",
+        ),
+        (
+            json!({ "from": { "of": { "meshes": [{ "src": "a.stl" }] }, "iso": 1 } }),
+            "from/of/meshes",
+        ),
+        (
+            json!({ "from": { "of": { "builtin": "apple" }, "iso": 1 } }),
+            "from/of/builtin",
+        ),
+        (
+            json!({ "from": { "of": { "builtin": "drawn-arm" }, "iso": 1 } }),
+            "from/of/builtin",
+        ),
+        (
+            json!({ "from": { "of": { "builtin": 3 }, "iso": 1 } }),
+            "from/of/builtin",
+        ),
+        (
+            json!({ "from": { "of": { "sha256": "no" }, "iso": 1 } }),
+            "from/of/sha256",
+        ),
+        (
+            json!({ "from": { "of": { "raw": 3 }, "iso": 1 } }),
+            "from/of/raw",
+        ),
+        (
+            json!({ "from": { "of": { "frame": -1 }, "iso": 1 } }),
+            "from/of/frame",
+        ),
+        (json!({ "from": { "of": {}, "iso": "bone" } }), "from/iso"),
+        (json!({ "from": { "of": {}, "iso": [1] } }), "from/iso"),
+        (
+            json!({ "from": { "of": {}, "segment": 7 } }),
+            "from/segment",
+        ),
+        (
+            json!({ "from": { "of": {}, "iso": 1, "walls": 2 } }),
+            "from/walls",
+        ),
         (json!({ "detail": "fine" }), "detail"),
         (json!({ "detail": [0.1] }), "detail"),
         (json!({ "tools": {} }), "tools"),

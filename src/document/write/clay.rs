@@ -2,7 +2,8 @@
 
 use super::value;
 use crate::document::model::{
-    Clay, ClayMove, ClayStart, ClayStroke, ClayTool, MeshParts, MeshReading, MeshRef,
+    Clay, ClayMove, ClayStart, ClayStroke, ClayTool, ClayVolume, MeshParts, MeshReading, MeshRef,
+    VoxelPart, VoxelSource,
 };
 use serde_json::{Value, json};
 
@@ -24,6 +25,7 @@ pub(super) fn clay(clay: &Clay, before: Option<&Value>) -> Value {
                 ..mesh.clone()
             })
         }
+        ClayStart::Volume(volume) => volume.to_value(),
         ClayStart::Unknown(name) => {
             let kept = old("from").cloned();
             kept.unwrap_or_else(|| json!({ "shape": name }))
@@ -47,6 +49,43 @@ pub(super) fn clay(clay: &Clay, before: Option<&Value>) -> Value {
 /// A recipe as text, for who makes the clay elsewhere.
 pub fn clay_to_text(of: &Clay) -> String {
     clay(of, None).to_string()
+}
+
+impl ClayVolume {
+    /// The value of `subject.clay.from`.
+    fn to_value(&self) -> Value {
+        let mut of = json!({});
+        let mut set = |key: &str, to: Value| of[key] = to;
+        match &self.of {
+            VoxelSource::Builtin(name) => set("builtin", json!(name)),
+            VoxelSource::File {
+                src,
+                sha256,
+                name,
+                reading,
+            } => {
+                set("name", json!(name));
+                for (key, given) in [("src", src), ("sha256", sha256)] {
+                    if let Some(given) = given {
+                        set(key, json!(given));
+                    }
+                }
+                set("frame", json!(reading.frame));
+                if let Some(raw) = &reading.raw {
+                    set("raw", value::raw(raw));
+                }
+            }
+        }
+        let mut from = json!({ "of": of });
+        match &self.part {
+            VoxelPart::Segment(name) => from["segment"] = json!(name),
+            VoxelPart::Iso(value) => from["iso"] = json!(value),
+        }
+        if self.has_all_walls {
+            from["walls"] = json!(Self::WALLS[1]);
+        }
+        from
+    }
 }
 
 impl ClayTool {

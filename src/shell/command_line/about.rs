@@ -12,7 +12,10 @@ use super::output::{one_line, print};
 use crate::assets::Want;
 use crate::clay::Shaping;
 use crate::data::measure;
-use crate::document::{Clay, ClayStart, ClayTool, Illustration, MeshRef, SubjectRef};
+use crate::document::{
+    Clay, ClayStart, ClayTool, ClayVolume, Illustration, MeshRef, SubjectRef, VoxelPart,
+    VoxelSource,
+};
 use crate::load::{cubic, short, times};
 
 /// Most lines of one list; what is beyond them is counted.
@@ -63,11 +66,36 @@ fn of_supplied(sha256: &str, name: &str) -> String {
 }
 
 fn of_mesh(mesh: &MeshRef) -> String {
-    match (&mesh.src, &mesh.sha256) {
-        (Some(src), _) => of_file(src, &mesh.name),
-        (None, Some(sha256)) => of_supplied(sha256, &mesh.name),
+    of_either(mesh.src.as_deref(), mesh.sha256.as_deref(), &mesh.name)
+}
+
+/// A file at an address, or one that the reader supplies.
+fn of_either(src: Option<&str>, sha256: Option<&str>, name: &str) -> String {
+    match (src, sha256) {
+        (Some(src), _) => of_file(src, name),
+        (None, Some(sha256)) => of_supplied(sha256, name),
         (None, None) => "none".to_owned(),
     }
+}
+
+/// The part of a volume that a clay begins with.
+fn of_volume(volume: &ClayVolume) -> String {
+    let part = match &volume.part {
+        VoxelPart::Segment(name) => format!("segment {}", one_line(name)),
+        VoxelPart::Iso(value) => format!("values from {value}"),
+    };
+    let of = match &volume.of {
+        VoxelSource::Builtin(name) => format!("built-in {}", one_line(name)),
+        VoxelSource::File {
+            src, sha256, name, ..
+        } => of_either(src.as_deref(), sha256.as_deref(), name),
+    };
+    let walls = if volume.has_all_walls {
+        ", all walls"
+    } else {
+        ""
+    };
+    format!("{part} of {of}{walls}")
 }
 
 fn of_meshes(meshes: &[MeshRef]) -> String {
@@ -85,6 +113,7 @@ fn of_clay(clay: &Clay, shown: &Clay, shaping: &Shaping) -> String {
     let start = match &shown.from {
         ClayStart::Shape(shape) => shape.name().to_owned(),
         ClayStart::Mesh(mesh) => of_mesh(mesh),
+        ClayStart::Volume(volume) => of_volume(volume),
         ClayStart::Unknown(name) => one_line(name),
     };
     // Writing to a string does not fail.

@@ -13,7 +13,7 @@ use super::task::{Part, ScanTask};
 use crate::assets::LoadEvent;
 use crate::document::clay_from_text;
 use crate::load::mesh_among;
-use crate::shell::clays::{ClayDesk, make_clay, make_clay_of_file};
+use crate::shell::clays::{ClayDesk, NO_SCANS, make_clay, make_clay_of_file};
 
 thread_local! {
     /// What the last clay's strokes left: a worker rests between strokes.
@@ -39,6 +39,14 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
     if clay.file().is_none() {
         DESK.with_borrow_mut(|desk| make_clay(desk, &clay, &mut post));
         return Ok(());
+    }
+    if clay.volume().is_some() {
+        // Not even fetched.
+        return post::event(LoadEvent::Failed {
+            message: NO_SCANS.to_owned(),
+            details: String::new(),
+            fault: None,
+        });
     }
     let (mut files, name) = match ScanTask::of(&message)? {
         ScanTask::Address { address, .. } => match fetch(&address).await {
