@@ -43,7 +43,7 @@ pub struct ClayDesk {
 /// A file or a volume that was read, and the clay of it that no stroke has touched.
 #[derive(Debug)]
 struct MadeStart {
-    /// As [`nameless`].
+    /// What it begins with, without the name that a reader sees.
     from: ClayStart,
     /// That of the file's bytes, if there is a file.
     sha256: Option<[u8; 32]>,
@@ -271,8 +271,8 @@ fn read_voxels(
     builder.finish().map_err(|error| cannot(error.to_string()))
 }
 
-/// What the page says of a clay of a scan: its readers of scans are a program of their own, and the shaper of clays goes
-/// without them.
+/// What the page says of a clay of a scan: its readers of scans are a program of their own, and the shaper of clays
+/// goes without them.
 #[cfg(target_arch = "wasm32")]
 pub const NO_SCANS: &str = "a clay of a scan is not drawn in the page yet: write it with `fabrica clay`, and begin with that mesh";
 

@@ -1,7 +1,7 @@
 //! The hand that shapes a clay over the picture: the tool where it would act and as held keys fit it, the drag under
 //! way, and the bar that holds the tool.
 
-use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
+use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use glam::{Quat, Vec3};
 
 use super::drawn::{STEP, is_plain};
@@ -57,6 +57,8 @@ pub(crate) struct ShapingHand {
     /// How hard the pen pressed when the drag began.
     force: Option<f32>,
     has_palm: bool,
+    /// What turns the view still.
+    turned: Vec2,
     /// A held key fits the tool.
     fitting: Option<Fitting>,
     /// The wheel that turned for this has not come to rest yet.
@@ -84,6 +86,11 @@ impl ShapingHand {
         let begins = || response.drag_started_by(PointerButton::Primary);
         let is_taken = session.tool() == Tool::Clay && self.is_plain(ui);
         is_taken && (!matches!(self.hand, Hand::Free) || begins())
+    }
+
+    /// The way of a drag beside the clay while nobody knew yet what was under it, points; told once.
+    pub(crate) fn take_turned(&mut self) -> Vec2 {
+        std::mem::take(&mut self.turned)
     }
 
     /// True if the wheel fits the tool, and zooms nothing.
@@ -252,7 +259,11 @@ impl ShapingHand {
                         let force = self.force;
                         Hand::Draws(vec![Touch { force, ..first }])
                     }
-                    None => Hand::Free,
+                    None => {
+                        let ends = self.spots.first().zip(self.spots.last());
+                        self.turned = ends.map_or(Vec2::ZERO, |(first, last)| *last - *first);
+                        Hand::Free
+                    }
                 };
             }
             Hand::Free | Hand::Rests | Hand::Draws(_) => {}

@@ -345,7 +345,7 @@ impl Viewport {
 
     /// Turning, moving and zooming: the camera as the hand leaves it.
     fn gestures(
-        &self,
+        &mut self,
         ui: &Ui,
         response: &Response,
         view: &Projection,
@@ -386,6 +386,10 @@ impl Viewport {
                 let turn = delta * ORBIT_PER_POINT;
                 camera::orbit(&mut camera, glam::vec2(turn.x, turn.y));
             }
+        }
+        let turn = self.shaping.take_turned() * ORBIT_PER_POINT;
+        if turn != Vec2::ZERO {
+            camera::orbit(&mut camera, glam::vec2(turn.x, turn.y));
         }
         let is_free = touch.is_none() && !self.shaping.takes_wheel(session, ui);
         if response.contains_pointer() && is_free {
