@@ -20,6 +20,7 @@ impl ClayVolume {
 
 /// Where the voxels of a [`ClayVolume`] come from.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "a clay holds the whole in a box")]
 pub enum VoxelSource {
     /// A subject that the program generates, by its name.
     Builtin(String),
