@@ -52,6 +52,15 @@ struct MadeStart {
 }
 
 impl MadeStart {
+    fn new(clay: &Clay, sha256: Option<[u8; 32]>, shaping: Shaping) -> Self {
+        Self {
+            from: nameless(&clay.from),
+            sha256,
+            shaping,
+            detail: clay.detail,
+        }
+    }
+
     /// True if a clay begins with this, should its file be the same.
     fn is_of(&self, clay: &Clay) -> bool {
         self.from == nameless(&clay.from) && self.detail == clay.detail
@@ -98,8 +107,7 @@ impl ClayDesk {
         report: &mut LoadReport,
         go_on: &mut dyn FnMut(f32) -> bool,
     ) -> Result<(), LoadError> {
-        let start = self.start.as_ref().filter(|start| start.is_of(clay));
-        if let Some(here) = start.and_then(|start| start.sha256) {
+        if let Some(here) = self.start_of(clay).and_then(|start| start.sha256) {
             let given = clay.file().and_then(|file| file.sha256);
             let wanted = given.map(str::to_owned);
             let wanted = wanted.or_else(|| hash_of(files, name));
@@ -112,15 +120,17 @@ impl ClayDesk {
         *self = Self::default();
         let shaping = match clay.volume() {
             Some(meant) => {
-                let read = &mut |part| go_on(READING * part);
-                let volume = read_voxels((files, name), &meant.of, report, read)?;
+                let volume = read_voxels((files, name), &meant.of, report, &mut |part| {
+                    go_on(READING * part)
+                })?;
                 Shaping::of_volume(clay, meant, &volume, &mut |part| {
                     go_on(behind_reading(part))
                 })
             }
             None => {
-                let read = &mut |part| go_on(READING * part);
-                let mesh = read_surface((files, name), clay, report, read)?;
+                let mesh = read_surface((files, name), clay, report, &mut |part| {
+                    go_on(READING * part)
+                })?;
                 Shaping::of_mesh(clay, &mesh, &mut |part| go_on(behind_reading(part)))
             }
         };
@@ -130,13 +140,13 @@ impl ClayDesk {
                 message: format!("{other} ({name})"),
             },
         })?;
-        self.start = Some(MadeStart {
-            from: nameless(&clay.from),
-            sha256: report.sha256,
-            shaping,
-            detail: clay.detail,
-        });
+        self.start = Some(MadeStart::new(clay, report.sha256, shaping));
         Ok(())
+    }
+
+    /// The start that is here, if a clay begins with it.
+    fn start_of(&self, clay: &Clay) -> Option<&MadeStart> {
+        self.start.as_ref().filter(|start| start.is_of(clay))
     }
 
     /// A clay that no stroke has touched. That of a built-in subject is made, unless it is here.
@@ -145,7 +155,7 @@ impl ClayDesk {
         clay: &Clay,
         go_on: &mut dyn FnMut(f32) -> bool,
     ) -> Result<Shaping, ClayError> {
-        if let Some(start) = self.start.as_ref().filter(|start| start.is_of(clay)) {
+        if let Some(start) = self.start_of(clay) {
             return Ok(start.shaping.clone());
         }
         let Some(meant) = clay.volume() else {
@@ -157,18 +167,13 @@ impl ClayDesk {
         let volume = builtin_voxels(name, &mut |part| go_on(READING * part))?;
         let make = &mut |part| go_on(behind_reading(part));
         let shaping = Shaping::of_volume(clay, meant, &volume, make)?;
-        self.start = Some(MadeStart {
-            from: nameless(&clay.from),
-            sha256: None,
-            shaping: shaping.clone(),
-            detail: clay.detail,
-        });
+        self.start = Some(MadeStart::new(clay, None, shaping.clone()));
         Ok(shaping)
     }
 
     /// The hash of the file that a clay begins with, if that was read.
     fn sha256_of(&self, clay: &Clay) -> Option<String> {
-        let start = self.start.as_ref().filter(|start| start.is_of(clay))?;
+        let start = self.start_of(clay)?;
         start.sha256.map(|hash| hex(&hash))
     }
 

@@ -704,10 +704,13 @@ fn a_clay_begins_with_a_file() {
     assert!(told.out.contains("border edges: "), "{}", told.out);
     // It is a subject like any other.
     render(&at_src).ok();
-    let args = ["probe", text(&at_src), "--object"];
-    let inside = fabrica_with(Path::new("."), &args, b"-0.47,-0.47,0.6\n0.4,0.4,0.4\n")
-        .ok()
-        .out;
+    clay_is_at_the_first(&at_src, b"-0.47,-0.47,0.6\n0.4,0.4,0.4\n");
+}
+
+/// Of two points, the first lies in the clay and the second beside it.
+fn clay_is_at_the_first(doc: &Path, points: &[u8]) {
+    let args = ["probe", text(doc), "--object"];
+    let inside = fabrica_with(Path::new("."), &args, points).ok().out;
     let lines: Vec<&str> = inside.lines().collect();
     assert!(
         lines[0].ends_with(",clay") && !lines[1].ends_with(",clay"),
@@ -748,15 +751,7 @@ fn a_clay_begins_with_a_part_of_a_volume() {
     let render =
         |doc: &Path| fabrica(&["render", text(doc), "-o", text(&picture), "--size", "64x48"]);
     render(&cube).ok();
-    let args = ["probe", text(&cube), "--object"];
-    let inside = fabrica_with(Path::new("."), &args, b"0,0,0.55\n0.4,0.4,0.4\n")
-        .ok()
-        .out;
-    let lines: Vec<&str> = inside.lines().collect();
-    assert!(
-        lines[0].ends_with(",clay") && !lines[1].ends_with(",clay"),
-        "{inside}"
-    );
+    clay_is_at_the_first(&cube, b"0,0,0.55\n0.4,0.4,0.4\n");
     let stone = doc(
         "stone.json",
         r#""of": { "builtin": "cube" }, "segment": "stone""#,

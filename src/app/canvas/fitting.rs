@@ -3,10 +3,9 @@
 
 use egui::{Key, Pos2, Ui};
 
+use super::projection::ZOOM_PER_POINT;
 use crate::app::session::ClayHand;
 
-/// Growth per point of the wheel, exponent: as the wheel zooms.
-const GROWTH_PER_POINT: f32 = 0.0022;
 /// Degrees that the tool turns per point.
 const DEGREES_PER_POINT: f32 = 0.5;
 
@@ -76,7 +75,7 @@ impl Fitting {
     pub(crate) fn fitted(&self, pos: Pos2, points_per_unit: f32) -> ClayHand {
         let way = pos.x - self.from.x;
         let grown =
-            |length: f32| (length + way / points_per_unit) * (GROWTH_PER_POINT * self.wheel).exp();
+            |length: f32| (length + way / points_per_unit) * (ZOOM_PER_POINT * self.wheel).exp();
         let before = &self.before;
         match self.fits {
             Fits::Size => before.with_size(grown(before.size)),

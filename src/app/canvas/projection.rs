@@ -6,6 +6,9 @@ use glam::Vec3;
 use crate::app::session::camera::axes;
 use crate::document::Camera;
 
+/// Zoom per point of the wheel, exponent; by as much a tool grows that the wheel sizes.
+pub(crate) const ZOOM_PER_POINT: f32 = 0.0022;
+
 /// Where in a picture of so many pixels a place of the window is, if the picture fills this rectangle.
 pub(crate) fn pixels_of(rect: Rect, size: [u32; 2]) -> impl Fn(Pos2) -> [f32; 2] {
     let scale = size[0] as f32 / rect.width().max(1.0);

@@ -34,8 +34,6 @@ use crate::render::{CaptionPlace, PendingPick, RenderError};
 
 /// Radians per point of a drag.
 const ORBIT_PER_POINT: f32 = 0.0075;
-/// Zoom per point of the wheel, exponent.
-const ZOOM_PER_POINT: f32 = 0.0022;
 /// Seconds without a change after which the picture refines.
 const REST_SECONDS: f64 = 0.18;
 /// Seconds of GPU work per frame while something moves, and at rest.
@@ -383,19 +381,18 @@ impl Viewport {
                 // A figure is flat, and nothing is to be seen from its sides.
                 projection::pan(&mut camera, view, delta);
             } else {
-                let turn = delta * ORBIT_PER_POINT;
-                camera::orbit(&mut camera, glam::vec2(turn.x, turn.y));
+                orbit(&mut camera, delta);
             }
         }
-        let turn = self.shaping.take_turned() * ORBIT_PER_POINT;
-        if turn != Vec2::ZERO {
-            camera::orbit(&mut camera, glam::vec2(turn.x, turn.y));
+        let turned = self.shaping.take_turned();
+        if turned != Vec2::ZERO {
+            orbit(&mut camera, turned);
         }
         let is_free = touch.is_none() && !self.shaping.takes_wheel(session, ui);
         if response.contains_pointer() && is_free {
             let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
             if wheel != 0.0 {
-                camera::zoom(&mut camera, (wheel * ZOOM_PER_POINT).exp());
+                camera::zoom(&mut camera, (wheel * projection::ZOOM_PER_POINT).exp());
             } else if pinch != 1.0 {
                 camera::zoom(&mut camera, pinch);
             }
@@ -898,6 +895,12 @@ pub(crate) fn pasted(ui: &Ui) -> Option<String> {
             _ => None,
         })
     })
+}
+
+/// Turns the view by so many points of a drag.
+fn orbit(camera: &mut Camera, by: Vec2) {
+    let turn = by * ORBIT_PER_POINT;
+    camera::orbit(camera, glam::vec2(turn.x, turn.y));
 }
 
 #[cfg(test)]

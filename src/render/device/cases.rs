@@ -77,55 +77,69 @@ pub(super) struct Body {
 /// What stands for a way of asking that is never taken. It names what keeps tissue, so that the bindings stay.
 const NEVER_ASKED: &str = "return Material(pos, select(1.0, 0.0, is_kept(pos, mask, distance_to_kept(pos, mask, 0.0, 0u))), 0u);";
 
+const fn body(
+    path: &'static str,
+    function: &'static str,
+    is_used: fn(Cases) -> bool,
+    instead: &'static str,
+) -> Body {
+    Body {
+        path,
+        function,
+        is_used,
+        instead,
+    }
+}
+
 pub(super) const BODIES: [Body; 8] = [
-    Body {
-        path: "march/asked.wgsl",
-        function: "grouped",
-        is_used: |cases| cases.has_mode(&[1, 4]),
-        instead: NEVER_ASKED,
-    },
-    Body {
-        path: "march/asked.wgsl",
-        function: "chained",
-        is_used: |cases| cases.has_mode(&[2]),
-        instead: NEVER_ASKED,
-    },
-    Body {
-        path: "march/asked.wgsl",
-        function: "asked",
-        is_used: |cases| cases.has_mode(&[3]),
-        instead: NEVER_ASKED,
-    },
-    Body {
-        path: "march/align.wgsl",
-        function: "map_along",
-        is_used: |cases| cases.gives_way,
-        instead: "return rest_from_subject(pos, path);",
-    },
-    Body {
-        path: "march/constrain.wgsl",
-        function: "group_map",
-        is_used: |cases| cases.gives_way,
-        instead: "return rest_from_subject(pos, bits);",
-    },
-    Body {
-        path: "march/constrain.wgsl",
-        function: "before_group",
-        is_used: |cases| cases.gives_way_late,
-        instead: "return Mapped(pos, 1.0);",
-    },
-    Body {
-        path: "march/constrain.wgsl",
-        function: "moved_as_a_whole",
-        is_used: |cases| cases.moves_as_a_whole,
-        instead: "return whole;",
-    },
-    Body {
-        path: "march/constrain.wgsl",
-        function: "group_done_partly",
-        is_used: |cases| cases.gives_way_by_coordinate,
-        instead: "return Mapped(pos, 1.0);",
-    },
+    body(
+        "march/asked.wgsl",
+        "grouped",
+        |cases| cases.has_mode(&[1, 4]),
+        NEVER_ASKED,
+    ),
+    body(
+        "march/asked.wgsl",
+        "chained",
+        |cases| cases.has_mode(&[2]),
+        NEVER_ASKED,
+    ),
+    body(
+        "march/asked.wgsl",
+        "asked",
+        |cases| cases.has_mode(&[3]),
+        NEVER_ASKED,
+    ),
+    body(
+        "march/align.wgsl",
+        "map_along",
+        |cases| cases.gives_way,
+        "return rest_from_subject(pos, path);",
+    ),
+    body(
+        "march/constrain.wgsl",
+        "group_map",
+        |cases| cases.gives_way,
+        "return rest_from_subject(pos, bits);",
+    ),
+    body(
+        "march/constrain.wgsl",
+        "before_group",
+        |cases| cases.gives_way_late,
+        "return Mapped(pos, 1.0);",
+    ),
+    body(
+        "march/constrain.wgsl",
+        "moved_as_a_whole",
+        |cases| cases.moves_as_a_whole,
+        "return whole;",
+    ),
+    body(
+        "march/constrain.wgsl",
+        "group_done_partly",
+        |cases| cases.gives_way_by_coordinate,
+        "return Mapped(pos, 1.0);",
+    ),
 ];
 
 /// A text in which the body of a function is replaced. Lines behind it stay where they are; a function that is not
