@@ -251,6 +251,8 @@ fn the_file_that_a_clay_waits_for_answers_it() {
     let text = OF_FILE.replace("HASH", &segment_files::hash(CORNER.as_bytes()));
     let mut window = Window::open(DESK, &text);
     window.settle();
+    let is_at_rest = window.harness.state().is_at_rest();
+    assert!(is_at_rest, "nothing goes on while the file is missing");
     assert_eq!(window.strokes_asked(), [0]);
     let wanted = window.harness.query_all_by_label_contains("Corner");
     assert!(wanted.count() > 0, "the file is asked for by its name");

@@ -70,6 +70,8 @@ pub(crate) struct Pictures {
     job: Option<Job>,
     /// The strip was shown in this frame.
     is_wanted: bool,
+    /// There is a subject to draw. Without one no picture of a step comes, and none is waited for.
+    has_subject: bool,
     /// The step that was last scrolled to.
     seen: Option<usize>,
 }
@@ -77,7 +79,8 @@ pub(crate) struct Pictures {
 impl Pictures {
     /// True while pictures of a strip that is shown are missing.
     pub(crate) fn is_waiting(&self) -> bool {
-        self.is_wanted && (self.job.is_some() || self.next().is_some())
+        let is_any_missing = self.job.is_some() || self.next().is_some();
+        self.is_wanted && self.has_subject && is_any_missing
     }
 
     fn next(&self) -> Option<&Arc<Illustration>> {
@@ -171,6 +174,7 @@ impl Pictures {
             return;
         };
         self.take(session);
+        self.has_subject = session.view.subject.is_some();
         if let Some((of, work)) = &mut self.job {
             if let Some(image) = poll_once(work) {
                 let texture = image.ok().map(|image| {
@@ -183,7 +187,9 @@ impl Pictures {
                 self.find_places();
             }
             ctx.request_repaint();
-        } else if let Some(state) = self.next().cloned() {
+        } else if self.has_subject
+            && let Some(state) = self.next().cloned()
+        {
             let is_idle = picture.state.is_done && !picture.is_waiting();
             let is_still = !session.is_playing() && !is_held;
             if is_idle && is_still && picture.state.has_picture {
