@@ -89,6 +89,15 @@ fn rank(square: f64, is_shortest_first: bool) -> u64 {
     }
 }
 
+/// Edges that ask for something, by their ends after the step. None asks to be split and to collapse.
+#[derive(Default)]
+struct Asked {
+    /// To be split, longest first.
+    long: BinaryHeap<Queued>,
+    /// To collapse, shortest first.
+    short: BinaryHeap<Queued>,
+}
+
 /// The middle of the cubic through two vertices, how far it is off the middle of the edge, and that middle.
 fn cubic_middle(a: &Vertex, b: &Vertex) -> (DVec3, f64, DVec3) {
     let (p, q) = (a.pos(), b.pos());
@@ -112,7 +121,11 @@ pub(super) fn between(a: &Vertex, b: &Vertex, detail: f64) -> Vertex {
 }
 
 fn must_split(a: &Vertex, b: &Vertex, detail: f64) -> bool {
-    let square = a.pos().distance_squared(b.pos());
+    is_split_at(a.pos().distance_squared(b.pos()), a, b, detail)
+}
+
+/// As [`must_split`], of an edge with a length of this square.
+fn is_split_at(square: f64, a: &Vertex, b: &Vertex, detail: f64) -> bool {
     if square > detail * detail {
         return true;
     }
@@ -122,8 +135,8 @@ fn must_split(a: &Vertex, b: &Vertex, detail: f64) -> bool {
     a.normal().dot(b.normal()) < SPLIT_COS || cubic_middle(a, b).1 > detail / 20.0
 }
 
-fn must_collapse(a: &Vertex, b: &Vertex, detail: f64) -> bool {
-    let square = a.pos().distance_squared(b.pos());
+/// True if an edge with a length of this square collapses.
+fn is_collapsed_at(square: f64, a: &Vertex, b: &Vertex, detail: f64) -> bool {
     if square >= detail * detail / 4.0 {
         return false;
     }
@@ -199,22 +212,38 @@ impl Stepping<'_> {
         vertex
     }
 
-    /// Puts an edge into a queue if it asks for something, by its ends after the step.
-    fn ask(
-        &self,
-        [a, b]: [u32; 2],
-        queue: &mut BinaryHeap<Queued>,
-        asks: fn(&Vertex, &Vertex, f64) -> bool,
-        is_shortest_first: bool,
-    ) {
+    /// Puts an edge into the queue of what it asks for. Only edges that the step moves as a whole collapse.
+    fn ask(&self, [a, b]: [u32; 2], asked: &mut Asked) {
         let (one, two) = (self.after(a), self.after(b));
-        if asks(one, two, self.detail) {
-            let square = one.pos().distance_squared(two.pos());
-            queue.push((
-                rank(square, is_shortest_first),
-                Reverse((a.min(b), a.max(b))),
-            ));
+        let square = one.pos().distance_squared(two.pos());
+        let ends = Reverse((a.min(b), a.max(b)));
+        if is_split_at(square, one, two, self.detail) {
+            asked.long.push((rank(square, false), ends));
+        } else if is_collapsed_at(square, one, two, self.detail)
+            && self.is_moved(a)
+            && self.is_moved(b)
+        {
+            asked.short.push((rank(square, true), ends));
         }
+    }
+
+    /// What the edges of the vertices that move ask for.
+    fn asked(&self) -> Asked {
+        let mut asked = Asked::default();
+        for vertex in self.moving() {
+            for half in self.mesh.fan(vertex) {
+                let to = self.mesh.to(half);
+                if to < vertex || !self.is_moved(to) {
+                    self.ask([vertex, to], &mut asked);
+                }
+            }
+            if self.mesh.is_border(vertex) {
+                for edge in self.edges_of(vertex) {
+                    self.ask(edge, &mut asked);
+                }
+            }
+        }
+        asked
     }
 
     /// The half-edge of what a queue gave, if the edge is still there and as long as it was.
@@ -241,28 +270,21 @@ impl Stepping<'_> {
 
     /// Lets the edges follow: long ones split, short ones collapse, then slender triangles flip.
     pub(super) fn look_after(&mut self, carry: &impl Carry) {
-        self.split_long(carry);
-        self.collapse_short(carry);
+        let mut asked = self.asked();
+        self.split_long(&mut asked, carry);
+        self.collapse_asked(asked, carry);
         self.flip_slender();
     }
 
-    /// Splits long edges, longest first, until none is left.
-    fn split_long(&mut self, carry: &impl Carry) {
-        let mut queue = BinaryHeap::new();
-        for vertex in self.moving() {
-            for half in self.mesh.fan(vertex) {
-                let to = self.mesh.to(half);
-                if to < vertex || !self.is_moved(to) {
-                    self.ask([vertex, to], &mut queue, must_split, false);
-                }
-            }
-            if self.mesh.is_border(vertex) {
-                for edge in self.edges_of(vertex) {
-                    self.ask(edge, &mut queue, must_split, false);
-                }
-            }
-        }
-        while let Some(queued) = queue.pop() {
+    /// Lets the ends of short edges become one.
+    pub(super) fn collapse_short(&mut self, carry: &impl Carry) {
+        let asked = self.asked();
+        self.collapse_asked(asked, carry);
+    }
+
+    /// Splits long edges, longest first, until none is left. What new edges ask for is added.
+    fn split_long(&mut self, asked: &mut Asked, carry: &impl Carry) {
+        while let Some(queued) = asked.long.pop() {
             let Some(half) = self.still(queued, false) else {
                 continue;
             };
@@ -271,27 +293,17 @@ impl Stepping<'_> {
                 return;
             }
             let vertex = self.split(half, carry);
-            let edges: Vec<[u32; 2]> = self.edges_of(vertex).collect();
-            for [from, to] in edges {
+            for [from, to] in self.edges_of(vertex) {
                 if self.is_moved(from) || self.is_moved(to) {
-                    self.ask([from, to], &mut queue, must_split, false);
+                    self.ask([from, to], asked);
                 }
             }
         }
     }
 
     /// Lets the ends of short edges become one, shortest first, until none is left that may.
-    pub(super) fn collapse_short(&mut self, carry: &impl Carry) {
-        let mut queue = BinaryHeap::new();
-        for vertex in self.moving() {
-            for half in self.mesh.fan(vertex) {
-                let to = self.mesh.to(half);
-                if to < vertex && self.is_moved(to) {
-                    self.ask([vertex, to], &mut queue, must_collapse, true);
-                }
-            }
-        }
-        while let Some(queued) = queue.pop() {
+    fn collapse_asked(&mut self, mut asked: Asked, carry: &impl Carry) {
+        while let Some(queued) = asked.short.pop() {
             let Some(half) = self.still(queued, true) else {
                 continue;
             };
@@ -301,9 +313,10 @@ impl Stepping<'_> {
             if !self.is_moved(vertex) {
                 continue;
             }
-            let edges: Vec<u32> = self.mesh.ring(vertex).collect();
-            for other in edges.into_iter().filter(|other| self.is_moved(*other)) {
-                self.ask([vertex, other], &mut queue, must_collapse, true);
+            for other in self.mesh.ring(vertex) {
+                if self.is_moved(other) {
+                    self.ask([vertex, other], &mut asked);
+                }
             }
         }
     }

@@ -19,7 +19,7 @@ use super::worker::run::{self, BendWorker, WorkerLoad};
 use super::worker::task::{ScanTask, Task};
 use crate::app::{
     LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, SetText, Shipped, TextOver,
-    TextToSet, Ticket,
+    TextToSet, Ticket, ask_for_frame,
 };
 use crate::assets::{BendAnswer, BendRequest, LoadEvent, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
@@ -102,9 +102,19 @@ impl Page {
     }
 
     pub(super) fn send(&mut self, message: Message) {
+        // More follows at once.
+        let is_on_its_way = matches!(
+            message,
+            Message::Load {
+                event: LoadEvent::Progress { .. } | LoadEvent::Part(_),
+                ..
+            }
+        );
         self.messages.push(message);
-        if let Some(ctx) = &self.ctx {
-            ctx.request_repaint();
+        match &self.ctx {
+            Some(ctx) if is_on_its_way => ask_for_frame(ctx),
+            Some(ctx) => ctx.request_repaint(),
+            None => {}
         }
     }
 

@@ -118,6 +118,17 @@ pub(crate) async fn open_coarse(
     session.open_coarse("lesson.html", size).await
 }
 
+/// The same with pictures of half the size along a side, which are compared.
+pub(crate) async fn open_half(
+    session: &Session,
+    embeds: &[String],
+    between: &str,
+    size: (u32, u32),
+) -> Tab {
+    serve(session, embeds, between);
+    session.open_half("lesson.html", size).await
+}
+
 /// Serves such a page under another policy, with the second text in place of the first.
 pub(crate) fn serve_where(session: &Session, name: &str, embeds: &[String], policy: [&str; 2]) {
     serve(session, embeds, "");

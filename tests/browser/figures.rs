@@ -1,7 +1,7 @@
 //! Figures in the page and in embeds: their part is fetched when one is shown, and their pictures are those of the
 //! native program.
 
-use super::embed::{open_coarse, picture_of, ready, rests_at};
+use super::embed::{open_half, picture_of, ready, rests_at};
 use super::hand::{
     CTRL, Control, Touch, changed, click, controls, find, focus, mark, press, press_with,
 };
@@ -95,7 +95,7 @@ fn assert_alike(page: &RgbaImage, native: &RgbaImage, name: &str) {
 fn a_page_draws_figures_as_the_native_program_does() {
     with_browser(BrowserGpu::Software, |session| async move {
         let link = payload(ARM);
-        let tab = session.coarse_viewer(&format!("#{link}"), PAGE).await;
+        let tab = session.half_viewer(&format!("#{link}"), PAGE).await;
         tab.settled().await;
         let server = &session.server;
         assert_eq!(count(server, "fabrica_figures_bg.wasm"), 1);
@@ -114,7 +114,7 @@ fn a_page_draws_figures_as_the_native_program_does() {
 
         session.server.add("plate.png", plate_png());
         let link = payload(PLATE);
-        let tab = session.coarse_viewer(&format!("#{link}"), PAGE).await;
+        let tab = session.half_viewer(&format!("#{link}"), PAGE).await;
         tab.settled().await;
         for part in ["subjects", "scans", "meshes"] {
             assert_eq!(count(server, &format!("fabrica_{part}")), 0, "no {part}");
@@ -163,7 +163,7 @@ fn a_dropped_picture_is_a_figure() {
 fn an_embed_bends_a_figure_from_step_to_step() {
     with_browser(BrowserGpu::Software, |session| async move {
         let embed = format!("controls src=\"#{}\">", payload(ARM));
-        let tab = open_coarse(&session, &[embed], "", (320, 500)).await;
+        let tab = open_half(&session, &[embed], "", (320, 500)).await;
         ready(&tab, 1).await;
         rests_at(&tab, "e0", 0).await;
         let before = picture_of(&tab, "e0").await;
@@ -248,7 +248,7 @@ fn a_plate_is_divided_and_bent_by_hand() {
         session.server.add("plate.png", plate_png());
         let size = (900, 760);
         let link = format!("#{}", payload(PLAIN));
-        let tab = session.coarse_viewer(&link, size).await;
+        let tab = session.half_viewer(&link, size).await;
         tab.settled().await;
         drop_files(&tab, &["plate.png"]).await;
         let is_figure = "JSON.parse(window.fabrica.viewer.get_document()).figure !== undefined";
@@ -326,7 +326,7 @@ fn a_plate_is_divided_and_bent_by_hand() {
         tab.settled().await;
         // Another reader has the file too.
         let link: String = tab.eval("window.fabrica.viewer.get_link()").await;
-        let other = session.coarse_viewer(&format!("#{link}"), size).await;
+        let other = session.half_viewer(&format!("#{link}"), size).await;
         drop_files(&other, &["plate.png"]).await;
         other
             .wait_until(
@@ -413,7 +413,7 @@ fn a_figure_is_stopped_drawn_finer_and_labelled() {
         let size = (900, 760);
         let json = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":60000,"handles":[{"region":"humerus"},{"region":"hand","move":[0.02,0.1]}]}}"#;
         let link = format!("#{}", payload(json));
-        let tab = session.coarse_viewer(&link, size).await;
+        let tab = session.half_viewer(&link, size).await;
         click(&tab, "Stop bending").await;
         let go_on = find(&tab, "Go on").await;
         tab.picture("figure_stopped").await;
@@ -431,7 +431,7 @@ fn a_figure_is_stopped_drawn_finer_and_labelled() {
         // The edge of a bone is several pixels wide where the drawing is seen too closely.
         let json = r#"{"fabrica":1,"subject":{"builtin":"drawn-arm"},"figure":{"detail":1500},"camera":{"target":[0.1,-0.12,0],"distance":0.15}}"#;
         let link = format!("#{}", payload(json));
-        let tab = session.coarse_viewer(&link, size).await;
+        let tab = session.half_viewer(&link, size).await;
         tab.settled().await;
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
         let size_px = page.dimensions().into();
@@ -469,7 +469,7 @@ fn a_figure_is_stopped_drawn_finer_and_labelled() {
             .server
             .add("drawing.svg", DRAWING.as_bytes().to_vec());
         let tab = session
-            .coarse_viewer(&format!("#{}", payload(PLAIN)), size)
+            .half_viewer(&format!("#{}", payload(PLAIN)), size)
             .await;
         tab.settled().await;
         drop_files(&tab, &["drawing.svg"]).await;
@@ -489,7 +489,7 @@ fn a_figure_is_stopped_drawn_finer_and_labelled() {
         let file = jpeg([64, 40], &[1, 2, 3], (0xc0, 8), &[], value);
         session.server.add("plate.jpg", file.clone());
         let link = format!("#{}", payload(&PLATE.replace("plate.png", "plate.jpg")));
-        let tab = session.coarse_viewer(&link, PAGE).await;
+        let tab = session.half_viewer(&link, PAGE).await;
         tab.settled().await;
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
         let ReadPlate { plate, .. } = read_plate(&file).expect("a JPEG");

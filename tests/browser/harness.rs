@@ -85,12 +85,20 @@ window.framesLater = async (viewer, wanted) => {
 const KNOWN_TO_BE_SLOW: &str =
     "try { localStorage.setItem('fabrica.slow', 'told'); } catch { /* a page without storage */ }";
 
-/// Pictures have one pixel for two of CSS along a side, as on a page that is zoomed out: a quarter of the work for the
-/// software GPU, with the same layout. The viewer counts them by the ratio where a browser does not tell them itself.
-const COARSE: &str = "
-Object.defineProperty(window, 'devicePixelRatio', { get: () => 0.5 });
+/// Pixels of a picture for one of CSS along a side, as on a page that is zoomed out: far less work for the software GPU,
+/// with the same layout. A quarter where a test is of what the page does, not of how it looks; half where pictures are
+/// compared.
+const COARSE: f32 = 0.25;
+const HALF: f32 = 0.5;
+
+/// Makes pictures of so many pixels. The viewer counts them by the ratio where a browser does not tell them itself.
+fn with_pixels(ratio: f32) -> String {
+    format!(
+        "Object.defineProperty(window, 'devicePixelRatio', {{ get: () => {ratio} }});
 delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
-";
+"
+    )
+}
 
 /// Root of the repository.
 pub(crate) fn root() -> &'static Path {
@@ -281,9 +289,13 @@ impl Session {
 
     /// The same at an address.
     pub(crate) async fn open_coarse_at(&self, address: &str, size: (u32, u32)) -> Tab {
-        let tab = self.open_with(COARSE, address, size).await;
-        assert!(tab.eval::<bool>("devicePixelRatio === 0.5").await);
-        tab
+        self.open_with(&with_pixels(COARSE), address, size).await
+    }
+
+    /// As [`Session::open_sized`], with pictures of half the size along a side, which are compared.
+    pub(crate) async fn open_half(&self, path: &str, size: (u32, u32)) -> Tab {
+        let address = format!("{}/{path}", self.server.address());
+        self.open_with(&with_pixels(HALF), &address, size).await
     }
 
     async fn open_with(&self, before: &str, address: &str, size: (u32, u32)) -> Tab {
@@ -329,9 +341,26 @@ impl Session {
 
     /// As [`Session::viewer_at`], with a coarse canvas.
     pub(crate) async fn coarse_viewer_at(&self, address: &str, size: (u32, u32)) -> Tab {
-        let tab = self.viewer_with(COARSE, address, size).await;
-        let is_coarse = "document.getElementById('fabrica').width === innerWidth / 2";
-        tab.wait_until(is_coarse, 30).await;
+        self.viewer_with_pixels(COARSE, address, size).await
+    }
+
+    /// As [`Session::viewer_sized`], with a canvas of half the size along a side: for pictures that are compared.
+    pub(crate) async fn half_viewer(&self, path: &str, size: (u32, u32)) -> Tab {
+        let address = format!("{}/{path}", self.server.address());
+        self.half_viewer_at(&address, size).await
+    }
+
+    /// The same at an address.
+    pub(crate) async fn half_viewer_at(&self, address: &str, size: (u32, u32)) -> Tab {
+        self.viewer_with_pixels(HALF, address, size).await
+    }
+
+    async fn viewer_with_pixels(&self, ratio: f32, address: &str, size: (u32, u32)) -> Tab {
+        let tab = self.viewer_with(&with_pixels(ratio), address, size).await;
+        let is_so = format!(
+            "Math.abs(document.getElementById('fabrica').width - {ratio} * innerWidth) <= 1"
+        );
+        tab.wait_until(&is_so, 30).await;
         tab
     }
 

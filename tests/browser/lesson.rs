@@ -1,7 +1,7 @@
 //! A lesson of six steps in the reader: wherever one comes from it rests at the pictures of the native program, and an
 //! interrupted passage changes from frame to frame no more than an undisturbed one.
 
-use super::embed::{open_coarse, picture_of, ready, rests_quietly};
+use super::embed::{open_half, picture_of, ready, rests_quietly};
 use super::harness::Tab;
 use super::*;
 use fabrica::data::VolumeBuilder;
@@ -92,7 +92,7 @@ fn a_lesson_rests_at_its_steps_and_never_jumps() {
     with_browser(BrowserGpu::Software, |session| async move {
         let link = payload(RECORDED);
         let embed = format!("controls step=4 src=\"#{link}\">");
-        let tab = open_coarse(&session, &[embed], "", (240, 700)).await;
+        let tab = open_half(&session, &[embed], "", (240, 700)).await;
         ready(&tab, 1).await;
         rests_quietly(&tab).await;
         assert!(tab.eval::<bool>(LESSON_CLOCK).await);
@@ -197,7 +197,7 @@ fn a_clay_grows_by_steps() {
     with_browser(BrowserGpu::Software, |session| async move {
         let link = payload(GROWS);
         let embeds = [0, 2].map(|step| format!("controls step={step} src=\"#{link}\">"));
-        let tab = open_coarse(&session, &embeds, "", (240, 700)).await;
+        let tab = open_half(&session, &embeds, "", (240, 700)).await;
         ready(&tab, 2).await;
         rests_quietly(&tab).await;
         let size: [u32; 2] = picture_of(&tab, "e0").await.dimensions().into();

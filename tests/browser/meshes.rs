@@ -190,7 +190,7 @@ fn a_dropped_stl_becomes_a_tool_that_cuts() {
         let json =
             r#"{"fabrica":1,"subject":{"builtin":"cube"},"camera":{"rotate":[0.2,0,0.1,0.97]}}"#;
         let tab = session
-            .coarse_viewer(&format!("#{}", payload(json)), TALL)
+            .half_viewer(&format!("#{}", payload(json)), TALL)
             .await;
         focus(&tab).await;
         tab.settled().await;
@@ -248,7 +248,7 @@ fn a_dropped_stl_becomes_a_tool_that_cuts() {
 
         click(&tab, "Copy link").await;
         let link = clipboard(&tab, &session.server.address()).await;
-        let other = session.coarse_viewer_at(&link, TALL).await;
+        let other = session.half_viewer_at(&link, TALL).await;
         focus(&other).await;
         other.settled().await;
         // It says which file it waits for.

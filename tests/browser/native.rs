@@ -393,7 +393,7 @@ fn compare_cases(cases: fn() -> Vec<Case>) {
         let mut native = Native::open().await;
         let mut findings = Findings::default();
         let tab = session
-            .coarse_viewer(&format!("#{}", payload(PLAIN)), (300, 420))
+            .half_viewer(&format!("#{}", payload(PLAIN)), (300, 420))
             .await;
         tab.eval::<bool>("(window.fabrica.viewer.destroy(), true)")
             .await;
@@ -433,7 +433,7 @@ async fn compare_field(session: &Session, native: &mut Native, findings: &mut Fi
     session.server.add("nodes.csv", table.clone());
     let json = r#"{"fabrica":1,"subject":{"builtin":"cube"},"templates":[{"kind":"field","params":{"src":"nodes.csv","edge":0.1}}],"camera":{"rotate":[0.3,0.2,0.1,0.92]}}"#;
     let tab = session
-        .coarse_viewer(&format!("#{}", payload(json)), (300, 420))
+        .half_viewer(&format!("#{}", payload(json)), (300, 420))
         .await;
     tab.settled().await;
     let page = promised(&tab, "window.fabrica.viewer.picture()").await;
@@ -482,7 +482,7 @@ fn a_clay_is_drawn_as_the_native_program_draws_it() {
             {"path":[0,0,-420,0,30,-250,90,0,-90],"scales":[100,80,60]},{"do":"smooth","strength":80,"path":[-100,500,100,200,0,0]}]}},
             "camera":{"rotate":[0.3,0.2,0.1,0.92]}}"#;
         let link = payload(json);
-        let tab = session.coarse_viewer(&format!("#{link}"), (300, 420)).await;
+        let tab = session.half_viewer(&format!("#{link}"), (300, 420)).await;
         tab.settled().await;
         let server = &session.server;
         assert_only_clay_is_fetched(server);
@@ -528,7 +528,7 @@ fn a_clay_of_a_file_is_drawn_as_the_native_program_draws_it() {
         };
         let at_src = || r#""src":"ball.obj""#.to_owned();
         let link = payload(&json(at_src(), 200));
-        let tab = session.coarse_viewer(&format!("#{link}"), (300, 420)).await;
+        let tab = session.half_viewer(&format!("#{link}"), (300, 420)).await;
         tab.settled().await;
         assert_only_clay_is_fetched(server);
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
@@ -562,7 +562,7 @@ fn a_clay_of_a_file_is_drawn_as_the_native_program_draws_it() {
         // The same by its hash, once the reader has dropped the file.
         let hash = fabrica::math::hex(&Sha256::digest(&obj));
         let link = payload(&json(format!(r#""sha256":"{hash}""#), 200));
-        let tab = session.coarse_viewer(&format!("#{link}"), (300, 420)).await;
+        let tab = session.half_viewer(&format!("#{link}"), (300, 420)).await;
         tab.settled().await;
         drop_files(&tab, &["ball.obj"]).await;
         tab.settled().await;
@@ -671,7 +671,7 @@ fn compare_scene(
         let bytes = bumpy_ball().into_bytes();
         session.server.add("ball.obj", bytes.clone());
         let tab = session
-            .coarse_viewer(&format!("#{}", payload(json)), page_size)
+            .half_viewer(&format!("#{}", payload(json)), page_size)
             .await;
         tab.settled().await;
         if let Some(place) = place {

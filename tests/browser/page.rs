@@ -39,7 +39,7 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
     with_browser(BrowserGpu::Software, |session| async move {
         session.allow_clipboard().await;
         let first = payload(PEEL);
-        let tab = session.coarse_viewer(&format!("#{first}"), PAGE).await;
+        let tab = session.half_viewer(&format!("#{first}"), PAGE).await;
         tab.settled().await;
         let closed = object_part(&tab.picture("peel_before").await);
         assert!(drawn_pixels(&closed) > 10_000, "something is drawn");
@@ -98,7 +98,7 @@ fn peel_is_dragged_and_its_link_opens_to_the_same_picture() {
             copied.starts_with(&session.server.address()),
             "a link was copied: {copied}"
         );
-        let other = session.coarse_viewer_at(&copied, PAGE).await;
+        let other = session.half_viewer_at(&copied, PAGE).await;
         other.settled().await;
         let opened = object_part(&other.picture("peel_opened").await);
         let same = difference(&dragged, &opened, WHITE);

@@ -23,7 +23,7 @@ async fn stroke(tab: &Tab, from: (f64, f64), by: (f64, f64)) -> serde_json::Valu
 fn a_clay_is_shaped_by_hand_and_handed_on() {
     with_browser(BrowserGpu::Software, |session| async move {
         let tab = session
-            .coarse_viewer(&format!("#{}", payload(CLAY)), SIZE)
+            .half_viewer(&format!("#{}", payload(CLAY)), SIZE)
             .await;
         focus(&tab).await;
         tab.settled().await;
@@ -55,7 +55,7 @@ fn a_clay_is_shaped_by_hand_and_handed_on() {
         let link: String = tab.eval("window.fabrica.viewer.get_link()").await;
         let whole = document(&tab).await;
         tab.page.close().await.expect("the tab closes");
-        let other = session.coarse_viewer(&format!("#{link}"), SIZE).await;
+        let other = session.half_viewer(&format!("#{link}"), SIZE).await;
         focus(&other).await;
         other.settled().await;
         let opened = document(&other).await;
