@@ -436,3 +436,54 @@ fn a_stroke_is_moved_in_the_list() {
     window.settle();
     assert_eq!(window.document().to_json_compact(), before);
 }
+
+#[test]
+fn strokes_are_laid_down_and_done_together() {
+    let mut window = Window::with_clay_tool(0);
+    let middle = window.picture_center();
+    window.press(Key::J);
+    window.drag(middle, vec2(-40.0, -30.0));
+    window.drag(middle - vec2(60.0, 30.0), vec2(-40.0, 0.0));
+    window.settle();
+    assert!(window.strokes().is_empty(), "nothing is done yet");
+    window.look("strokes laid down");
+    let keys = |window: &Window, of: &str| window.harness.query_all_by_label_contains(of).count();
+    assert!(keys(&window, "of tool 1") >= 2, "the handles of the first");
+    assert!(keys(&window, "of tool 2") >= 2, "and of the second");
+    // A handle is dragged; the last one is taken back, and drawn again.
+    let spot = window
+        .harness
+        .get_by_label("Key 2 of tool 1")
+        .rect()
+        .center();
+    window.drag(spot, vec2(0.0, -20.0));
+    let moved = window
+        .harness
+        .get_by_label("Key 2 of tool 1")
+        .rect()
+        .center();
+    assert!(moved.y < spot.y - 10.0, "{moved} {spot}");
+    window.undo();
+    assert_eq!(keys(&window, "of tool 2"), 0);
+    window.drag(middle - vec2(60.0, 30.0), vec2(-40.0, 0.0));
+    window.press(Key::Enter);
+    window.wait_for_strokes(1);
+    assert_eq!(window.strokes()[0].moves.len(), 2);
+    assert_eq!(keys(&window, "of tool"), 0);
+    window.look("strokes done together");
+    window.undo();
+    window.wait_for_strokes(0);
+    // Buttons do the same.
+    window.drag(middle, vec2(-40.0, -30.0));
+    window.drag(middle + vec2(0.0, 60.0), vec2(40.0, 0.0));
+    window.click("Take back what was laid down last");
+    assert_eq!(keys(&window, "of tool 2"), 0);
+    window.click("Do what is laid down as one stroke");
+    window.wait_for_strokes(1);
+    window.drag(middle, vec2(-40.0, -30.0));
+    window.press(Key::Escape);
+    assert_eq!(keys(&window, "of tool"), 0, "dropped");
+    window.click("Together");
+    window.drag(middle, vec2(-40.0, -30.0));
+    window.wait_for_strokes(2);
+}

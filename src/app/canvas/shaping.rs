@@ -6,6 +6,7 @@ use glam::{Quat, Vec3};
 
 use super::drawn::{STEP, is_plain};
 use super::fitting::{Fits, Fitting};
+use super::outline::{images, paint_outline, placed_outline, seen};
 use super::pen::Pen;
 use super::projection::{Projection, pixels_of};
 use super::tools::head_bar;
@@ -18,10 +19,13 @@ use crate::app::picture::host::Picture;
 use crate::app::session::{ClayCommand, ClayHand, Command, Session, StrokeWay, Tool, Touch};
 use crate::app::words::clay::w;
 use crate::app::words::fill;
+use crate::math::Similarity;
 use crate::render::{PendingPick, Pick};
 
 /// Width of the bar, points.
-const BAR: f32 = 430.0;
+const BAR: f32 = 464.0;
+/// Below this width the bar leaves out what the panel has too.
+const NARROW: f32 = 420.0;
 
 /// What the hand does.
 #[derive(Default)]
@@ -350,25 +354,13 @@ impl ShapingHand {
         ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
         let hand = &session.clay_hand;
         let (middle, turn) = hand.pose(&at);
-        let lines = hand.shape().outline();
-        let placed = |p: &Vec3| middle + turn * *p;
+        let placed = Similarity::new(1.0, turn.as_dquat(), middle.as_dvec3());
+        let outline = placed_outline(&hand.shape(), placed);
+        paint_outline(&painter, view, &outline, hand.mirror, ink::HOT);
         let ring = ring(view, middle, hand.size + hand.coat);
-        let lines = lines.iter().map(|line| line.iter().map(placed).collect());
-        let lines: Vec<Vec<Vec3>> = lines.collect();
-        for image in images(hand.mirror) {
-            let drawn = |line: &[Vec3]| -> Option<Vec<Pos2>> {
-                let spots = line.iter().map(|p| view.ui_from_subject(image * *p));
-                spots.collect()
-            };
-            for line in lines.iter().filter_map(|line| drawn(line)) {
-                let halo = Stroke::new(2.8, ink::HALO_DARK.gamma_multiply(0.4));
-                painter.add(Shape::line(line.clone(), halo));
-                painter.add(Shape::line(line, Stroke::new(1.2, ink::HOT)));
-            }
-            if let Some(line) = drawn(&ring) {
-                let stroke = Stroke::new(1.2, ink::HALO_LIGHT);
-                painter.extend(Shape::dashed_line(&line, stroke, 4.0, 4.0));
-            }
+        for line in images(hand.mirror).filter_map(|image| seen(view, &ring, image)) {
+            let stroke = Stroke::new(1.2, ink::HALO_LIGHT);
+            painter.extend(Shape::dashed_line(&line, stroke, 4.0, 4.0));
         }
     }
 }
@@ -401,21 +393,6 @@ fn ring(view: &Projection, middle: Vec3, radius: f32) -> Vec<Vec3> {
     (0..=48).map(corner).collect()
 }
 
-/// Signs of the axes of a tool and of its mirror images.
-fn images(mirror: [bool; 3]) -> Vec<Vec3> {
-    let mut all = vec![Vec3::ONE];
-    for (axis, is_mirrored) in Vec3::AXES.into_iter().zip(mirror) {
-        if is_mirrored {
-            let images: Vec<Vec3> = all
-                .iter()
-                .map(|signs| *signs * (1.0 - 2.0 * axis))
-                .collect();
-            all.extend(images);
-        }
-    }
-    all
-}
-
 /// Over the picture while the tool is in hand: what a drag does, form and size of the tool, the mirror across x, and
 /// how to put it away. The panel has the rest.
 pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
@@ -424,7 +401,9 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
     let hand = &session.clay_hand;
     let mut hold = |hand: ClayHand| commands.push(Command::Clay(ClayCommand::Hold(hand)));
     let side = theme::control_height();
-    let room = (width - 12.0 - 4.0 * (side + 2.0) - 12.0).max(120.0);
+    let is_wide = width >= NARROW;
+    let buttons = if is_wide { 5.0 } else { 4.0 };
+    let room = (width - 12.0 - buttons * (side + 2.0) - 12.0).max(120.0);
     let (way_width, form_width) = (0.56 * room, 0.44 * room);
     let shown = widget::combo("way of strokes", way_title(hand.way).0, way_width);
     let shown = shown.show_ui(ui, |ui| {
@@ -458,22 +437,46 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
     shown.response.named(w().form).on_hover_text(w().form);
     let [x, y, z] = hand.mirror;
     let name = fill(w().mirror, &[&"x"]);
-    let response = ui.add_sized(vec2(side, side), egui::Button::new("X").selected(x));
-    if response
-        .named(&name)
-        .on_hover_text(w().mirror_hint)
-        .clicked()
+    let mut mirrors = || ui.add_sized(vec2(side, side), egui::Button::new("X").selected(x));
+    if is_wide
+        && mirrors()
+            .named(&name)
+            .on_hover_text(w().mirror_hint)
+            .clicked()
     {
         hold(ClayHand {
             mirror: [!x, y, z],
             ..hand.clone()
         });
     }
-    if widget::icon_button(ui, Icon::Down, w().smaller, true).clicked() {
-        commands.push(Command::NudgeMain(-1.0));
+    buttons_ui(ui, session, commands);
+}
+
+/// The buttons at the end of the bar. What is laid down is done and taken back where else the tool is sized.
+fn buttons_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let together = &session.together;
+    let act = Command::Clay(ClayCommand::Act);
+    let pair = match together.ghosts.is_empty() {
+        true => [
+            (Icon::Down, w().smaller, Command::NudgeMain(-1.0), true),
+            (Icon::Up, w().larger, Command::NudgeMain(1.0), true),
+        ],
+        false => [
+            (Icon::Undo, w().take_back, Command::DeleteSelected, true),
+            (Icon::Check, w().act, act, together.may_act()),
+        ],
+    };
+    for (icon, name, command, is_enabled) in pair {
+        if widget::icon_button(ui, icon, name, is_enabled).clicked() {
+            commands.push(command);
+        }
     }
-    if widget::icon_button(ui, Icon::Up, w().larger, true).clicked() {
-        commands.push(Command::NudgeMain(1.0));
+    let is_on = together.is_on;
+    let side = theme::control_height();
+    let hint = w().together_hint;
+    let toggle = widget::icon_button_sized(ui, Icon::Layers, hint, true, is_on, side);
+    if toggle.accessible_name(w().together).clicked() {
+        commands.push(Command::Clay(ClayCommand::Together));
     }
     if widget::icon_button(ui, Icon::Close, w().put_away, true).clicked() {
         commands.push(Command::Clay(ClayCommand::Toggle));

@@ -11,6 +11,7 @@ use super::ball::{self, PictureBall};
 use super::captions::Followed;
 use super::drawn::DrawnWay;
 use super::figure::FigureCanvas;
+use super::ghosts;
 use super::gizmo::Gizmo;
 use super::held::Held;
 use super::measure::Distances;
@@ -237,6 +238,7 @@ impl Viewport {
             Tool::Clay => {
                 self.gizmo.release();
                 self.shaping.paint(ui, &view, session);
+                ghosts::ui(ui, &view, session, commands);
                 shaping::bar_ui(ui, bars, session, commands);
             }
             Tool::Look | Tool::Figure(_) if session.view.is_figure() => {

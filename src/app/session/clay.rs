@@ -1,8 +1,11 @@
 //! What an author holds to shape a clay, and what can be done with it, as plain data.
 
-use glam::{Quat, Vec3};
+use std::f64::consts::PI;
 
-use crate::document::{ClayShape, ClayTool, ToolShape};
+use glam::{DQuat, DVec3, Quat, Vec3};
+
+use crate::document::{ClayMove, ClayShape, ClayTool, ToolShape};
+use crate::math::Similarity;
 
 /// The sizes that a hand may hold, subject units.
 const SIZES: [f32; 2] = [0.01, 0.5];
@@ -179,6 +182,46 @@ impl ClayHand {
     }
 }
 
+/// A tool with its way, laid down.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ghost {
+    /// The tool.
+    pub tool: ClayTool,
+    /// Its way. A tool with one key stays, and holds what is in it.
+    pub way: ClayMove,
+}
+
+impl Ghost {
+    /// How the tool stands at each of its keys.
+    pub fn poses(&self) -> Vec<Similarity> {
+        let mut turned = DQuat::IDENTITY;
+        let keys = self.way.keys.iter();
+        keys.map(|key| {
+            let [turn, at] =
+                [key.turn, key.at].map(|parts| DVec3::from_array(parts.map(f64::from)));
+            turned = DQuat::from_scaled_axis(turn * (PI / 180.0)) * turned;
+            Similarity::new(f64::from(key.percent) / 100.0, turned, at / 1000.0)
+        })
+        .collect()
+    }
+}
+
+/// What is laid down, in the order of the strokes.
+#[derive(Debug, Default)]
+pub struct Together {
+    /// Strokes that are drawn are laid down.
+    pub is_on: bool,
+    /// The ghosts. All have the mirror images of the tool in the hand.
+    pub ghosts: Vec<Ghost>,
+}
+
+impl Together {
+    /// True if a ghost moves.
+    pub fn may_act(&self) -> bool {
+        self.ghosts.iter().any(|ghost| ghost.way.keys.len() > 1)
+    }
+}
+
 /// One thing to do with a clay.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ClayCommand {
@@ -198,6 +241,14 @@ pub enum ClayCommand {
         /// The hand has let go.
         is_over: bool,
     },
+    /// From now on strokes that are drawn are only laid down, or done again.
+    Together,
+    /// Does all that is laid down as one stroke.
+    Act,
+    /// Puts a key of something that is laid down elsewhere, subject space: its index and that of its key.
+    MoveGhost([usize; 2], Vec3),
+    /// Takes back what is laid down, by its index.
+    RemoveGhost(usize),
     /// Switches the stroke of this index off, or on again.
     Switch(usize),
     /// Removes the stroke of this index.

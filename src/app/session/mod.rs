@@ -20,6 +20,7 @@
 //! | `steps`, `playing` | recording the steps of a lesson, and playing them |
 //! | `figure` | making a figure: its regions and handles |
 //! | `clay`, `shaping` | the tool that shapes a clay, and what its strokes become |
+//! | `together` | strokes that are laid down and done as one |
 //! | `making`, `painting` | what can be done with tissues |
 //! | `seeking` | the search for a structure by name |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
@@ -73,6 +74,7 @@ mod taken;
 mod templates;
 mod ticket;
 pub mod tissues;
+mod together;
 mod tool;
 mod tracing;
 mod using;
@@ -84,7 +86,7 @@ mod recording_tests;
 mod tests;
 
 pub use self::camera::StandardView;
-pub use self::clay::{ClayCommand, ClayHand, StrokeWay, Touch};
+pub use self::clay::{ClayCommand, ClayHand, Ghost, StrokeWay, Together, Touch};
 pub use self::clipboard::{Clipboard, Copied};
 pub use self::command::{Command, GizmoMode, PicturePaper, StepCommand};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};

@@ -39,6 +39,7 @@ impl Session {
         // Whoever does something else has not chosen a picture.
         self.view.figure.wants_reference = false;
         match command {
+            Command::Undo if self.take_ghost_back() => {}
             Command::Undo => self.undo_or_redo(true),
             Command::Redo => self.undo_or_redo(false),
             Command::Apply(edit) => {
@@ -93,6 +94,7 @@ impl Session {
             Command::PlaceCarving(_, found) => self.place_carving(found),
             Command::PlaceTool(tool, found) => self.place_tool(tool, found),
             Command::SelectNext(forward) => self.select_next(forward),
+            Command::DeleteSelected if self.take_ghost_back() => {}
             Command::DeleteSelected => self.delete_selected(),
             Command::DuplicateSelected => self.duplicate_selected(),
             Command::Copy => {
@@ -277,6 +279,8 @@ impl Session {
             self.take_tool(Tool::Measure(None));
         } else if !self.view.figure.draft.is_empty() {
             self.view.figure.draft.clear();
+        } else if self.drop_ghosts() {
+            // Nothing of it is done.
         } else if self.tool != Tool::Look {
             self.take_tool(Tool::Look);
         } else if self.leave_making() {

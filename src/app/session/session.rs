@@ -2,7 +2,7 @@
 //! Other files of this room add what can be done with it.
 
 use super::camera;
-use super::clay::ClayHand;
+use super::clay::{ClayHand, Together};
 use super::clipboard::Clipboard;
 use super::command::{GizmoMode, PicturePaper};
 use super::effect::{Effect, LinkChange};
@@ -155,6 +155,8 @@ pub struct Session {
     pub(super) drawn_stroke: Option<usize>,
     /// The tool that shapes the clay while it is in hand.
     pub clay_hand: ClayHand,
+    /// Strokes of the clay that are laid down.
+    pub together: Together,
     /// The selected template or object.
     pub selection: Selection,
     /// What the handles in the picture do.
@@ -267,6 +269,7 @@ impl Session {
             drawn: None,
             drawn_stroke: None,
             clay_hand: ClayHand::default(),
+            together: Together::default(),
             selection: Selection::Nothing,
             gizmo: GizmoMode::Move,
             notices: Notices::default(),
@@ -431,6 +434,7 @@ impl Session {
             // The tissue that is painted is marked; a clay is shaped as it is without templates.
             self.revision += 1;
         }
+        self.together.ghosts.clear();
         self.tool = tool;
     }
 

@@ -40,12 +40,10 @@ impl Session {
             Tool::Place(_) => |_, found| Command::PlaceOnOrAtTarget(found),
             Tool::Caption => |_, found| Command::CaptionOn(found),
             Tool::Figure(_) => return self.use_figure_tool_in_middle(),
-            Tool::Look
-            | Tool::Seed(_)
-            | Tool::Paint { .. }
-            | Tool::Measure(_)
-            | Tool::Level
-            | Tool::Clay => return,
+            Tool::Look | Tool::Seed(_) | Tool::Paint { .. } | Tool::Measure(_) | Tool::Level => {
+                return;
+            }
+            Tool::Clay => return self.act_together(),
         };
         self.effect(Effect::Ask(Question::new(Place::Middle, reply)));
     }

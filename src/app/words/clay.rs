@@ -54,6 +54,13 @@ words! {
         key_size_does: "Size the tool; with Shift its coating", "Größe des Werkzeugs; mit Umschalt der Mantel", "Tamaño del instrumento; con Mayús el recubrimiento", "调整器械大小；加 Shift 调影响层";
         key_turn: "R held over clay", "R halten über Ton", "R pulsada sobre arcilla", "在黏土上按住 R";
         key_turn_does: "Turn the tool", "Werkzeug drehen", "Girar el instrumento", "转动器械";
+        key_act: "Enter over clay", "Eingabe über Ton", "Intro sobre arcilla", "在黏土上按回车";
+        key_together: "Lay strokes on clay down, or do them again", "Striche auf Ton vormerken oder wieder ausführen", "Dejar previstos los trazos sobre arcilla, o volver a hacerlos", "预置黏土笔划，或恢复直接执行";
+        together: "Together", "Gemeinsam", "A la vez", "同时";
+        together_hint: "Together (J): strokes are only laid down until Enter does them as one; Escape drops them, Undo takes the last one back. Smoothing is done at once", "Gemeinsam (J): Striche werden nur vorgemerkt, bis die Eingabetaste sie als einen ausführt; Esc verwirft sie, Rückgängig nimmt den letzten zurück. Geglättet wird sofort", "A la vez (J): los trazos solo se prevén hasta que Intro los hace como uno; Esc los descarta, Deshacer retira el último. El alisado se hace al momento", "同时 (J)：笔划只是预置，按回车时合为一笔执行；Esc 全部放弃，撤销收回最后一笔。平滑则立即执行";
+        act: "Do what is laid down as one stroke", "Vorgemerktes als einen Strich ausführen", "Hacer lo previsto como un solo trazo", "把预置的合为一笔执行";
+        take_back: "Take back what was laid down last", "Zuletzt Vorgemerktes zurücknehmen", "Retirar lo último previsto", "收回最后预置的";
+        too_many_at_once: "At most {0} tools act at once, mirror images counted", "Höchstens {0} Werkzeuge wirken gleichzeitig, Spiegelbilder mitgezählt", "Como máximo actúan {0} instrumentos a la vez, contando las imágenes reflejadas", "最多 {0} 件器械同时作用，镜像计入";
         drag: "Drag over the clay; beside it turns the view", "Über den Ton ziehen; daneben dreht es die Ansicht", "Arrastre sobre la arcilla; al lado gira la vista", "在黏土上拖动；旁边则转动视图";
     }
 }
