@@ -487,3 +487,67 @@ fn strokes_are_laid_down_and_done_together() {
     window.drag(middle, vec2(-40.0, -30.0));
     window.wait_for_strokes(2);
 }
+
+impl Window {
+    /// The middle of a handle of the tool that is laid down.
+    fn handle(&self, name: &str) -> Pos2 {
+        self.harness.get_by_label(name).rect().center()
+    }
+}
+
+#[test]
+fn a_tool_is_laid_down_and_its_handles_act() {
+    let mut window = Window::with_clay_tool(3);
+    let hand = |acts| {
+        fabrica::app::Command::Clay(ClayCommand::Hold(ClayHand {
+            way: StrokeWay::Place,
+            form: 3,
+            mirror: [false; 3],
+            acts,
+            ..ClayHand::default()
+        }))
+    };
+    window.run_command(hand(false));
+    window.click_at(window.picture_center());
+    window.settle();
+    window.look("tool laid down");
+    const FREE: &str = "Move freely";
+    let before = window.handle(FREE);
+    window.drag(before, vec2(0.0, -40.0));
+    let lifted = window.handle(FREE);
+    assert!(lifted.y < before.y - 30.0, "{before} {lifted}");
+    window.press(Key::ArrowUp);
+    assert!(window.handle(FREE).y < lifted.y - 1.0);
+    assert!(window.strokes().is_empty(), "it is only placed");
+    // Each drag is one stroke, whatever the handles do.
+    window.click("Handles act");
+    window.drag(window.handle(FREE), vec2(-30.0, 0.0));
+    window.wait_for_strokes(1);
+    window.look("tool laid down that has acted");
+    window.press(Key::T);
+    window.drag(window.handle("Turn about z"), vec2(25.0, 0.0));
+    window.wait_for_strokes(2);
+    let turned = window.strokes()[1].moves[0].keys[1].turn;
+    assert_ne!(turned, [0; 3]);
+    window.press(Key::S);
+    window.press(Key::CloseBracket);
+    window.wait_for_strokes(3);
+    assert_eq!(window.strokes()[2].moves[0].keys[1].percent, 115);
+    window.undo();
+    window.wait_for_strokes(2);
+    window.press(Key::Escape);
+    assert!(window.harness.query_by_label("Handles act").is_none());
+    // With the others it holds what is in it.
+    window.run_command(hand(false));
+    window.press(Key::J);
+    window.click_at(window.picture_center());
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Hold(
+        ClayHand::default(),
+    )));
+    window.drag(window.picture_center() + vec2(0.0, 60.0), vec2(60.0, 0.0));
+    window.press(Key::Enter);
+    window.wait_for_strokes(3);
+    let stroke = window.strokes().remove(2);
+    assert_eq!(stroke.moves.len(), 2);
+    assert_eq!(stroke.moves[0].keys.len(), 1, "it stays");
+}

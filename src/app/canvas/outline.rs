@@ -5,6 +5,7 @@ use glam::Vec3;
 
 use super::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
+use crate::app::session::ClayHand;
 use crate::document::ToolShape;
 use crate::math::Similarity;
 
@@ -38,6 +39,17 @@ pub(super) fn paint_outline(
 pub(super) fn seen(view: &Projection, line: &[Vec3], image: Vec3) -> Option<Vec<Pos2>> {
     let spots = line.iter().map(|p| view.ui_from_subject(image * *p));
     spots.collect()
+}
+
+/// Sides of the box around a tool of this form whose size is 1.
+pub(super) fn sides_of_tool(form: usize) -> Vec3 {
+    let hand = ClayHand {
+        form,
+        size: 1.0,
+        ..ClayHand::default()
+    };
+    let lines = hand.shape().outline().into_iter().flatten();
+    2.0 * lines.fold(Vec3::ZERO, |far, p| far.max(p.abs()))
 }
 
 /// Signs of the axes of a tool and of its mirror images.

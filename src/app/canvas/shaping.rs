@@ -9,16 +9,18 @@ use super::fitting::{Fits, Fitting};
 use super::outline::{images, paint_outline, placed_outline, seen};
 use super::pen::Pen;
 use super::projection::{Projection, pixels_of};
-use super::tools::head_bar;
+use super::tools::{gizmo_name, head_bar};
 use super::ways::paint_way;
 use crate::app::kit::clay_tool::{form_title, way_title};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, over_picture as ink};
 use crate::app::kit::widget::{self, Named as _};
 use crate::app::picture::host::Picture;
-use crate::app::session::{ClayCommand, ClayHand, Command, Session, StrokeWay, Tool, Touch};
+use crate::app::session::{
+    ClayCommand, ClayHand, Command, GizmoMode, Session, StrokeWay, Tool, Touch,
+};
 use crate::app::words::clay::w;
-use crate::app::words::fill;
+use crate::app::words::{fill, picture};
 use crate::math::Similarity;
 use crate::render::{PendingPick, Pick};
 
@@ -88,7 +90,7 @@ impl ShapingHand {
     /// True if a drag on the picture shapes, and turns nothing. In its first frame nobody knows yet what is under it.
     pub(crate) fn takes_drags(&self, session: &Session, ui: &Ui, response: &Response) -> bool {
         let begins = || response.drag_started_by(PointerButton::Primary);
-        let is_taken = session.tool() == Tool::Clay && self.is_plain(ui);
+        let is_taken = draws(session) && self.is_plain(ui);
         is_taken && (!matches!(self.hand, Hand::Free) || begins())
     }
 
@@ -146,7 +148,8 @@ impl ShapingHand {
             }
             self.follow();
         }
-        let begins = response.drag_started_by(PointerButton::Primary) && self.is_plain(ui);
+        let is_plain = draws(session) && self.is_plain(ui);
+        let begins = response.drag_started_by(PointerButton::Primary) && is_plain;
         if begins && (is_fitted || self.pen.is_palm_pointing(session.now)) {
             self.hand = Hand::Rests;
         } else if begins {
@@ -365,6 +368,11 @@ impl ShapingHand {
     }
 }
 
+/// True if drags are strokes: they are not where a tool is laid down.
+fn draws(session: &Session) -> bool {
+    session.tool() == Tool::Clay && session.clay_hand.way != StrokeWay::Place
+}
+
 /// The place of the clay that was found, if the clay was.
 fn touch(pick: &Pick, view: &Projection) -> Option<Touch> {
     let normal = pick.normal.normalize_or(view.back());
@@ -399,7 +407,6 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
     let (mut inner, width) = head_bar(ui, rect, BAR, "clay");
     let ui = &mut inner;
     let hand = &session.clay_hand;
-    let mut hold = |hand: ClayHand| commands.push(Command::Clay(ClayCommand::Hold(hand)));
     let side = theme::control_height();
     let is_wide = width >= NARROW;
     let buttons = if is_wide { 5.0 } else { 4.0 };
@@ -411,30 +418,20 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
             let (title, hint) = way_title(way);
             let label = ui.selectable_label(way == hand.way, title);
             if label.on_hover_text(hint).clicked() {
-                hold(ClayHand {
+                commands.push(held(ClayHand {
                     way,
                     ..hand.clone()
-                });
+                }));
             }
         }
     });
     let hint = format!("{}\n{}", way_title(hand.way).1, w().drag);
     shown.response.named(w().way).on_hover_text(hint);
-    let shown = widget::combo("form of strokes", form_title(hand.form), form_width);
-    let shown = shown.show_ui(ui, |ui| {
-        for form in 0..ClayHand::FORMS.len() {
-            if ui
-                .selectable_label(form == hand.form, form_title(form))
-                .clicked()
-            {
-                hold(ClayHand {
-                    form,
-                    ..hand.clone()
-                });
-            }
-        }
-    });
-    shown.response.named(w().form).on_hover_text(w().form);
+    if session.laid().is_some() {
+        handles_ui(ui, session.gizmo, form_width, commands);
+    } else {
+        form_ui(ui, hand, form_width, commands);
+    }
     let [x, y, z] = hand.mirror;
     let name = fill(w().mirror, &[&"x"]);
     let mut mirrors = || ui.add_sized(vec2(side, side), egui::Button::new("X").selected(x));
@@ -444,35 +441,89 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
             .on_hover_text(w().mirror_hint)
             .clicked()
     {
-        hold(ClayHand {
+        commands.push(held(ClayHand {
             mirror: [!x, y, z],
             ..hand.clone()
-        });
+        }));
     }
     buttons_ui(ui, session, commands);
+}
+
+/// Takes another tool in hand.
+fn held(hand: ClayHand) -> Command {
+    Command::Clay(ClayCommand::Hold(hand))
+}
+
+/// The form of the tool.
+fn form_ui(ui: &mut Ui, hand: &ClayHand, form_width: f32, commands: &mut Vec<Command>) {
+    let shown = widget::combo("form of strokes", form_title(hand.form), form_width);
+    let shown = shown.show_ui(ui, |ui| {
+        for form in 0..ClayHand::FORMS.len() {
+            if ui
+                .selectable_label(form == hand.form, form_title(form))
+                .clicked()
+            {
+                let hand = ClayHand {
+                    form,
+                    ..hand.clone()
+                };
+                commands.push(held(hand));
+            }
+        }
+    });
+    shown.response.named(w().form).on_hover_text(w().form);
+}
+
+/// What the handles of the tool that is laid down do.
+fn handles_ui(ui: &mut Ui, current: GizmoMode, width: f32, commands: &mut Vec<Command>) {
+    let shown = widget::combo("handles of the tool", gizmo_name(current), width);
+    let shown = shown.show_ui(ui, |ui| {
+        for mode in GizmoMode::ALL {
+            if ui
+                .selectable_label(mode == current, gizmo_name(mode))
+                .clicked()
+            {
+                commands.push(Command::SetGizmo(mode));
+            }
+        }
+    });
+    shown.response.named(picture::w().handles);
 }
 
 /// The buttons at the end of the bar. What is laid down is done and taken back where else the tool is sized.
 fn buttons_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let together = &session.together;
     let act = Command::Clay(ClayCommand::Act);
-    let pair = match together.ghosts.is_empty() {
-        true => [
+    let take_back = (Icon::Undo, w().take_back, Command::DeleteSelected, true);
+    let shown = match (together.ghosts.is_empty(), session.laid().is_some()) {
+        (true, false) => vec![
             (Icon::Down, w().smaller, Command::NudgeMain(-1.0), true),
             (Icon::Up, w().larger, Command::NudgeMain(1.0), true),
         ],
-        false => [
-            (Icon::Undo, w().take_back, Command::DeleteSelected, true),
-            (Icon::Check, w().act, act, together.may_act()),
-        ],
+        (true, true) => vec![take_back],
+        (false, false) => vec![take_back, (Icon::Check, w().act, act, together.may_act())],
+        (false, true) => vec![(Icon::Check, w().act, act, together.may_act())],
     };
-    for (icon, name, command, is_enabled) in pair {
+    for (icon, name, command, is_enabled) in shown {
         if widget::icon_button(ui, icon, name, is_enabled).clicked() {
             commands.push(command);
         }
     }
-    let is_on = together.is_on;
     let side = theme::control_height();
+    let hand = &session.clay_hand;
+    if session.laid().is_some() {
+        let toggle =
+            widget::icon_button_sized(ui, Icon::Brush, w().acts_hint, true, hand.acts, side);
+        if toggle.accessible_name(w().acts).clicked() {
+            let acts = !hand.acts;
+            let hand = ClayHand {
+                acts,
+                ..hand.clone()
+            };
+            commands.push(held(hand));
+        }
+    }
+    let is_on = together.is_on;
     let hint = w().together_hint;
     let toggle = widget::icon_button_sized(ui, Icon::Layers, hint, true, is_on, side);
     if toggle.accessible_name(w().together).clicked() {

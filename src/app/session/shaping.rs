@@ -34,7 +34,7 @@ const TURN_OF_KEY: f32 = 120.0;
 /// A tool grows to the double while the hand crosses this part of the picture.
 const DOUBLES: f32 = 0.25;
 /// Sizes of keys, per cent.
-const PERCENT: [f32; 2] = [5.0, 2000.0];
+pub(super) const PERCENT: [f32; 2] = [5.0, 2000.0];
 /// Longest turn of a key, degrees; rounding its parts may add one.
 const LONGEST_TURN: f32 = 178.0;
 /// Farthest place of a key, subject units.
@@ -71,7 +71,7 @@ impl Session {
             }
             ClayCommand::Toggle if self.tool() == Tool::Clay => self.take_tool(Tool::Look),
             ClayCommand::Toggle => self.take_clay_tool(),
-            ClayCommand::Hold(hand) => self.clay_hand = hand,
+            ClayCommand::Hold(hand) => self.hold_clay_tool(hand),
             ClayCommand::Draw {
                 way,
                 touches,
@@ -79,6 +79,8 @@ impl Session {
             } => self.draw_stroke(way, &touches, is_over),
             ClayCommand::Together if self.tool() == Tool::Clay => self.toggle_together(),
             ClayCommand::Together => {}
+            ClayCommand::LayOn(found) => self.lay_tool(found),
+            ClayCommand::Put(pose) => self.put_laid(pose),
             ClayCommand::Act => self.act_together(),
             ClayCommand::MoveGhost([ghost, key], pos) => self.move_ghost((ghost, key), pos),
             ClayCommand::RemoveGhost(ghost) => self.remove_ghost(ghost),
@@ -309,7 +311,7 @@ pub(super) fn thousandths(pos: Vec3) -> [i32; 3] {
 }
 
 /// A turn as whole degrees about the axes of the subject, the shorter way round.
-fn degrees(turn: Quat) -> [i32; 3] {
+pub(super) fn degrees(turn: Quat) -> [i32; 3] {
     let turn = if turn.w < 0.0 { -turn } else { turn };
     let vector = turn.to_scaled_axis() * (180.0 / std::f32::consts::PI);
     let vector = vector.clamp_length_max(LONGEST_TURN);
@@ -335,6 +337,7 @@ fn stroke(
     let gone = last.pos - first.pos;
     let [across, risen] = [gone.dot(right), gone.dot(up)];
     let (keys, is_straight) = match way {
+        StrokeWay::Place => return None,
         StrokeWay::Move | StrokeWay::Along | StrokeWay::Smooth => {
             let places = touches.iter().map(|touch| match way {
                 StrokeWay::Move => at + (touch.pos - first.pos),

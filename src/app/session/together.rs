@@ -20,6 +20,7 @@ impl Session {
     /// From now on strokes are laid down, or done again. What is laid down is done.
     pub(super) fn toggle_together(&mut self) {
         self.together.is_on = !self.together.is_on;
+        self.lift_laid();
         if !self.together.is_on {
             self.act_together();
         }
@@ -64,12 +65,13 @@ impl Session {
             is_off: false,
         };
         if self.put_stroke(stroke, &tools, true) {
-            self.together.ghosts.clear();
+            self.drop_ghosts();
         }
     }
 
     /// Takes back what was laid down last. False if there is nothing.
     pub(super) fn take_ghost_back(&mut self) -> bool {
+        self.lift_ghost();
         self.together.ghosts.pop().is_some()
     }
 
@@ -77,7 +79,13 @@ impl Session {
     pub(super) fn drop_ghosts(&mut self) -> bool {
         let has_ghosts = !self.together.ghosts.is_empty();
         self.together.ghosts.clear();
+        self.lift_ghost();
         has_ghosts
+    }
+
+    /// The last ghost is not what handles move any more.
+    fn lift_ghost(&mut self) {
+        self.laid.take_if(|laid| laid.is_ghost);
     }
 
     /// Puts a key of a ghost elsewhere, subject space.
@@ -90,7 +98,9 @@ impl Session {
 
     /// Takes back the ghost of this index.
     pub(super) fn remove_ghost(&mut self, ghost: usize) {
-        if ghost < self.together.ghosts.len() {
+        if ghost + 1 == self.together.ghosts.len() {
+            self.take_ghost_back();
+        } else if ghost < self.together.ghosts.len() {
             self.together.ghosts.remove(ghost);
         }
     }
