@@ -1,4 +1,4 @@
-//! What the handles over the picture belong to: a template, or an object of the scene.
+//! What the handles over the picture belong to: a template, an object of the scene, or a tool on a clay.
 
 use glam::Vec3;
 
@@ -76,7 +76,8 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// The command that puts it there; `None` if that changes nothing. `sized`: the axis along which a face was dragged.
+    /// The command that puts it there; `None` if that changes nothing. `sized`: the axis along which a face was
+    /// dragged.
     pub(crate) fn put(self, placement: Placement, sized: Option<usize>) -> Option<Command> {
         if placement == self.placement() {
             return None;

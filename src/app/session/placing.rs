@@ -4,14 +4,13 @@
 use glam::{Quat, Vec2, Vec3};
 
 use super::camera;
-use super::clay::{ClayHand, Ghost, Laid, Pose, StrokeWay, Touch, poses_of};
+use super::clay::{ClayCommand, ClayHand, Ghost, Laid, Pose, StrokeWay, Touch, poses_of};
 use super::command::{Command, GizmoMode};
 use super::found::Found;
 use super::question::{Place, Question};
 use super::session::Session;
 use super::shape::seen_across;
 use super::shaping::{PERCENT, degrees, thousandths};
-use crate::app::session::ClayCommand;
 use crate::document::{Clay, ClayKey, ClayMove, ClayStroke};
 
 /// How far an arrow key moves the tool, as a part of the picture, and how far it turns it, degrees.
@@ -141,8 +140,8 @@ impl Session {
         }
     }
 
-    /// Moves, turns or sizes the tool that is laid down by a step to the right or down in the picture, as its handles do
-    /// now.
+    /// Moves, turns or sizes the tool that is laid down by a step to the right or down in the picture, as its handles
+    /// do now.
     pub(super) fn nudge_laid(&mut self, right: f32, down: f32) {
         let Some(mut pose) = self.laid() else {
             return;

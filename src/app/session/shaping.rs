@@ -166,8 +166,8 @@ impl Session {
         }
     }
 
-    /// Puts a stroke in place of the one that is being drawn, or behind the others; its moves name tools by their places
-    /// in this list. True if the document took it.
+    /// Puts a stroke in place of the one that is being drawn, or behind the others; its moves name tools by their
+    /// places in this list. True if the document took it.
     pub(super) fn put_stroke(
         &mut self,
         mut stroke: ClayStroke,
