@@ -599,8 +599,8 @@ impl App {
             if is_sheet_open && !matches!(shortcut.command, Command::ToggleKeys | Command::Escape) {
                 continue;
             }
-            let is_placing = self.session.tool().wants_place();
-            if key == egui::Key::Enter && !is_placing {
+            let takes_enter = is_shaping || self.session.tool().wants_place();
+            if key == egui::Key::Enter && !takes_enter {
                 continue;
             }
             // A slow frame may hold a key that was pressed several times.

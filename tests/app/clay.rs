@@ -436,3 +436,118 @@ fn a_stroke_is_moved_in_the_list() {
     window.settle();
     assert_eq!(window.document().to_json_compact(), before);
 }
+
+#[test]
+fn strokes_are_laid_down_and_done_together() {
+    let mut window = Window::with_clay_tool(0);
+    let middle = window.picture_center();
+    window.press(Key::J);
+    window.drag(middle, vec2(-40.0, -30.0));
+    window.drag(middle - vec2(60.0, 30.0), vec2(-40.0, 0.0));
+    window.settle();
+    assert!(window.strokes().is_empty(), "nothing is done yet");
+    window.look("strokes laid down");
+    let keys = |window: &Window, of: &str| window.harness.query_all_by_label_contains(of).count();
+    assert!(keys(&window, "of tool 1") >= 2, "the handles of the first");
+    assert!(keys(&window, "of tool 2") >= 2, "and of the second");
+    // A handle is dragged; the last one is taken back, and drawn again.
+    let spot = window
+        .harness
+        .get_by_label("Key 2 of tool 1")
+        .rect()
+        .center();
+    window.drag(spot, vec2(0.0, -20.0));
+    let moved = window
+        .harness
+        .get_by_label("Key 2 of tool 1")
+        .rect()
+        .center();
+    assert!(moved.y < spot.y - 10.0, "{moved} {spot}");
+    window.undo();
+    assert_eq!(keys(&window, "of tool 2"), 0);
+    window.drag(middle - vec2(60.0, 30.0), vec2(-40.0, 0.0));
+    window.press(Key::Enter);
+    window.wait_for_strokes(1);
+    assert_eq!(window.strokes()[0].moves.len(), 2);
+    assert_eq!(keys(&window, "of tool"), 0);
+    window.look("strokes done together");
+    window.undo();
+    window.wait_for_strokes(0);
+    // Buttons do the same.
+    window.drag(middle, vec2(-40.0, -30.0));
+    window.drag(middle + vec2(0.0, 60.0), vec2(40.0, 0.0));
+    window.click("Take back what was laid down last");
+    assert_eq!(keys(&window, "of tool 2"), 0);
+    window.click("Do what is laid down as one stroke");
+    window.wait_for_strokes(1);
+    window.drag(middle, vec2(-40.0, -30.0));
+    window.press(Key::Escape);
+    assert_eq!(keys(&window, "of tool"), 0, "dropped");
+    window.click("Together");
+    window.drag(middle, vec2(-40.0, -30.0));
+    window.wait_for_strokes(2);
+}
+
+impl Window {
+    /// The middle of a handle of the tool that is laid down.
+    fn handle(&self, name: &str) -> Pos2 {
+        self.harness.get_by_label(name).rect().center()
+    }
+}
+
+#[test]
+fn a_tool_is_laid_down_and_its_handles_act() {
+    let mut window = Window::with_clay_tool(3);
+    let hand = |acts| {
+        fabrica::app::Command::Clay(ClayCommand::Hold(ClayHand {
+            way: StrokeWay::Place,
+            form: 3,
+            mirror: [false; 3],
+            acts,
+            ..ClayHand::default()
+        }))
+    };
+    window.run_command(hand(false));
+    window.click_at(window.picture_center());
+    window.settle();
+    window.look("tool laid down");
+    const FREE: &str = "Move freely";
+    let before = window.handle(FREE);
+    window.drag(before, vec2(0.0, -40.0));
+    let lifted = window.handle(FREE);
+    assert!(lifted.y < before.y - 30.0, "{before} {lifted}");
+    window.press(Key::ArrowUp);
+    assert!(window.handle(FREE).y < lifted.y - 1.0);
+    assert!(window.strokes().is_empty(), "it is only placed");
+    // Each drag is one stroke, whatever the handles do.
+    window.click("Handles act");
+    window.drag(window.handle(FREE), vec2(-30.0, 0.0));
+    window.wait_for_strokes(1);
+    window.look("tool laid down that has acted");
+    window.press(Key::T);
+    window.drag(window.handle("Turn about z"), vec2(25.0, 0.0));
+    window.wait_for_strokes(2);
+    let turned = window.strokes()[1].moves[0].keys[1].turn;
+    assert_ne!(turned, [0; 3]);
+    window.press(Key::S);
+    window.press(Key::CloseBracket);
+    window.wait_for_strokes(3);
+    assert_eq!(window.strokes()[2].moves[0].keys[1].percent, 115);
+    window.undo();
+    window.wait_for_strokes(2);
+    window.press(Key::Escape);
+    assert!(window.harness.query_by_label("Handles act").is_none());
+    // With the others it holds what is in it.
+    window.run_command(hand(false));
+    window.press(Key::J);
+    window.click_at(window.picture_center());
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Hold(
+        ClayHand::default(),
+    )));
+    window.drag(window.picture_center() + vec2(0.0, 60.0), vec2(60.0, 0.0));
+    window.press(Key::Enter);
+    window.wait_for_strokes(3);
+    let stroke = window.strokes().remove(2);
+    assert_eq!(stroke.moves.len(), 2);
+    assert_eq!(stroke.moves[0].keys.len(), 1, "it stays");
+}

@@ -10,8 +10,7 @@ use super::held::Held;
 use super::snap;
 use crate::app::canvas::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
-use crate::app::session::GizmoMode;
-use crate::app::session::Session;
+use crate::app::session::{Command, GizmoMode, Session};
 use crate::app::words::picture::w;
 use crate::app::words::{fill, in_sentence, kinds};
 use crate::document::{Edit, ParamKind, ParamValue, PlacedTemplate};
@@ -115,7 +114,7 @@ impl Gizmo {
         view: &Projection,
         held: Held<'_>,
         session: &Session,
-    ) -> Option<Edit> {
+    ) -> Option<Command> {
         let handles = Handles::new(view, held, session.gizmo);
         let is_touch = ui.input(|i| i.any_touches());
         let reach = if is_touch { REACH_TOUCH } else { REACH_MOUSE };
@@ -157,14 +156,14 @@ impl Gizmo {
             }
         }
 
-        let mut edit = None;
+        let mut command = None;
         if let (Some(hold), Some(pos)) = (&self.hold, pointer) {
             self.hot = Some(hold.part);
             if pos != hold.start || picture.dragged() {
                 let modifiers = ui.input(|i| i.modifiers);
                 // The key reverses the setting while it is held.
                 let snap = session.is_snapping != modifiers.command;
-                edit = hold.drag(pos, held, snap, modifiers.alt);
+                command = hold.drag(pos, held, snap, modifiers.alt);
             }
         }
         if self.is_hot() {
@@ -177,19 +176,22 @@ impl Gizmo {
         }
         handles.paint(&ui.painter_at(view.rect), self.hot);
         handles.announce(ui, held);
-        edit
+        command
     }
 }
 
 impl Hold {
     /// What holding it and being at `pos` now makes of what is held. `snap` goes in steps; `both` takes the opposite
     /// face along.
-    fn drag(&self, pos: Pos2, held: Held<'_>, snap: bool, both: bool) -> Option<Edit> {
+    fn drag(&self, pos: Pos2, held: Held<'_>, snap: bool, both: bool) -> Option<Command> {
         let view = &self.view;
         let mut placement = self.placement;
         let at = placement.at;
         match self.part {
-            Part::Main => return self.drag_main(pos, held.template()?, snap),
+            Part::Main => {
+                let edit = self.drag_main(pos, held.template()?, snap);
+                return edit.map(Command::Drag);
+            }
             Part::Free => {
                 let from = view.on_plane(self.start, at, view.back)?;
                 placement.at += view.on_plane(pos, at, view.back)? - from;

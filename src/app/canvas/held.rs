@@ -1,8 +1,9 @@
-//! What the handles over the picture belong to: a template, or an object of the scene.
+//! What the handles over the picture belong to: a template, an object of the scene, or a tool on a clay.
 
 use glam::Vec3;
 
-use crate::app::session::PlacedObject;
+use super::outline::sides_of_tool;
+use crate::app::session::{ClayCommand, Command, PlacedObject, Pose, Session};
 use crate::document::{Edit, ObjectPlacement, PlacedTemplate};
 use crate::math::{Bent, Placement};
 
@@ -16,14 +17,23 @@ pub(crate) enum Held<'a> {
     Template(&'a PlacedTemplate),
     /// An object, by the box of its mesh: all sides grow together.
     Object(&'a PlacedObject),
+    /// A tool that is laid down on a clay, by a box of these sides: all grow together.
+    Tool(Pose, Vec3),
 }
 
 impl<'a> Held<'a> {
+    /// The tool that is laid down, if one is.
+    pub(crate) fn of_tool(session: &Session) -> Option<Self> {
+        let pose = session.laid()?;
+        let sides = sides_of_tool(session.clay_hand.form) * pose.size;
+        Some(Self::Tool(pose, sides))
+    }
+
     /// The template; `None` for an object.
     pub(crate) fn template(self) -> Option<&'a PlacedTemplate> {
         match self {
             Self::Template(template) => Some(template),
-            Self::Object(_) => None,
+            Self::Object(_) | Self::Tool(..) => None,
         }
     }
 
@@ -32,6 +42,7 @@ impl<'a> Held<'a> {
         match self {
             Self::Template(template) => template.index,
             Self::Object(object) => object.index,
+            Self::Tool(..) => 0,
         }
     }
 
@@ -43,6 +54,11 @@ impl<'a> Held<'a> {
                 at: object.placement.at,
                 rotate: object.placement.rotate,
                 size: sides_of(object) * object.placement.size,
+            },
+            Self::Tool(pose, sides) => Placement {
+                at: pose.at,
+                rotate: pose.turn,
+                size: sides,
             },
         }
     }
@@ -56,12 +72,13 @@ impl<'a> Held<'a> {
     pub(crate) fn subject_from_own(self, q: Vec3) -> Vec3 {
         match self {
             Self::Template(template) => template.subject_from_template(q),
-            Self::Object(_) => self.placement().subject_from_template(q),
+            Self::Object(_) | Self::Tool(..) => self.placement().subject_from_template(q),
         }
     }
 
-    /// The edit that puts it there; `None` if that changes nothing. `sized`: the axis along which a face was dragged.
-    pub(crate) fn put(self, placement: Placement, sized: Option<usize>) -> Option<Edit> {
+    /// The command that puts it there; `None` if that changes nothing. `sized`: the axis along which a face was
+    /// dragged.
+    pub(crate) fn put(self, placement: Placement, sized: Option<usize>) -> Option<Command> {
         if placement == self.placement() {
             return None;
         }
@@ -70,16 +87,16 @@ impl<'a> Held<'a> {
             && let Some(found) = template.carves_by()
         {
             let size = sized.map_or(template.placement.size.x, |axis| placement.size[axis]);
-            return Some(Edit::PlaceObject {
+            return Some(Command::Drag(Edit::PlaceObject {
                 object: found.index,
                 placement: ObjectPlacement {
                     at: placement.at,
                     rotate: placement.rotate,
                     size: size.clamp(0.001, 10.0),
                 },
-            });
+            }));
         }
-        Some(match self {
+        Some(Command::Drag(match self {
             Self::Template(template) => Edit::SetPlacement {
                 template: template.index,
                 placement,
@@ -98,7 +115,15 @@ impl<'a> Held<'a> {
                     },
                 }
             }
-        })
+            Self::Tool(pose, sides) => {
+                let grown = sized.map_or(1.0, |axis| placement.size[axis] / sides[axis]);
+                return Some(Command::Clay(ClayCommand::Put(Pose {
+                    at: placement.at,
+                    turn: placement.rotate,
+                    size: pose.size * grown,
+                })));
+            }
+        }))
     }
 }
 

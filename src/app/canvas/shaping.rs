@@ -6,22 +6,28 @@ use glam::{Quat, Vec3};
 
 use super::drawn::{STEP, is_plain};
 use super::fitting::{Fits, Fitting};
+use super::outline::{images, paint_outline, placed_outline, seen};
 use super::pen::Pen;
 use super::projection::{Projection, pixels_of};
-use super::tools::head_bar;
+use super::tools::{gizmo_name, head_bar};
 use super::ways::paint_way;
 use crate::app::kit::clay_tool::{form_title, way_title};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, over_picture as ink};
 use crate::app::kit::widget::{self, Named as _};
 use crate::app::picture::host::Picture;
-use crate::app::session::{ClayCommand, ClayHand, Command, Session, StrokeWay, Tool, Touch};
+use crate::app::session::{
+    ClayCommand, ClayHand, Command, GizmoMode, Session, StrokeWay, Tool, Touch,
+};
 use crate::app::words::clay::w;
-use crate::app::words::fill;
+use crate::app::words::{fill, picture};
+use crate::math::Similarity;
 use crate::render::{PendingPick, Pick};
 
 /// Width of the bar, points.
-const BAR: f32 = 430.0;
+const BAR: f32 = 464.0;
+/// Below this width the bar leaves out what the panel has too.
+const NARROW: f32 = 420.0;
 
 /// What the hand does.
 #[derive(Default)]
@@ -84,7 +90,7 @@ impl ShapingHand {
     /// True if a drag on the picture shapes, and turns nothing. In its first frame nobody knows yet what is under it.
     pub(crate) fn takes_drags(&self, session: &Session, ui: &Ui, response: &Response) -> bool {
         let begins = || response.drag_started_by(PointerButton::Primary);
-        let is_taken = session.tool() == Tool::Clay && self.is_plain(ui);
+        let is_taken = draws(session) && self.is_plain(ui);
         is_taken && (!matches!(self.hand, Hand::Free) || begins())
     }
 
@@ -142,7 +148,8 @@ impl ShapingHand {
             }
             self.follow();
         }
-        let begins = response.drag_started_by(PointerButton::Primary) && self.is_plain(ui);
+        let is_plain = draws(session) && self.is_plain(ui);
+        let begins = response.drag_started_by(PointerButton::Primary) && is_plain;
         if begins && (is_fitted || self.pen.is_palm_pointing(session.now)) {
             self.hand = Hand::Rests;
         } else if begins {
@@ -350,27 +357,20 @@ impl ShapingHand {
         ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
         let hand = &session.clay_hand;
         let (middle, turn) = hand.pose(&at);
-        let lines = hand.shape().outline();
-        let placed = |p: &Vec3| middle + turn * *p;
+        let placed = Similarity::new(1.0, turn.as_dquat(), middle.as_dvec3());
+        let outline = placed_outline(&hand.shape(), placed);
+        paint_outline(&painter, view, &outline, hand.mirror, ink::HOT);
         let ring = ring(view, middle, hand.size + hand.coat);
-        let lines = lines.iter().map(|line| line.iter().map(placed).collect());
-        let lines: Vec<Vec<Vec3>> = lines.collect();
-        for image in images(hand.mirror) {
-            let drawn = |line: &[Vec3]| -> Option<Vec<Pos2>> {
-                let spots = line.iter().map(|p| view.ui_from_subject(image * *p));
-                spots.collect()
-            };
-            for line in lines.iter().filter_map(|line| drawn(line)) {
-                let halo = Stroke::new(2.8, ink::HALO_DARK.gamma_multiply(0.4));
-                painter.add(Shape::line(line.clone(), halo));
-                painter.add(Shape::line(line, Stroke::new(1.2, ink::HOT)));
-            }
-            if let Some(line) = drawn(&ring) {
-                let stroke = Stroke::new(1.2, ink::HALO_LIGHT);
-                painter.extend(Shape::dashed_line(&line, stroke, 4.0, 4.0));
-            }
+        for line in images(hand.mirror).filter_map(|image| seen(view, &ring, image)) {
+            let stroke = Stroke::new(1.2, ink::HALO_LIGHT);
+            painter.extend(Shape::dashed_line(&line, stroke, 4.0, 4.0));
         }
     }
+}
+
+/// True if drags are strokes: they are not where a tool is laid down.
+fn draws(session: &Session) -> bool {
+    session.tool() == Tool::Clay && session.clay_hand.way != StrokeWay::Place
 }
 
 /// The place of the clay that was found, if the clay was.
@@ -401,30 +401,16 @@ fn ring(view: &Projection, middle: Vec3, radius: f32) -> Vec<Vec3> {
     (0..=48).map(corner).collect()
 }
 
-/// Signs of the axes of a tool and of its mirror images.
-fn images(mirror: [bool; 3]) -> Vec<Vec3> {
-    let mut all = vec![Vec3::ONE];
-    for (axis, is_mirrored) in Vec3::AXES.into_iter().zip(mirror) {
-        if is_mirrored {
-            let images: Vec<Vec3> = all
-                .iter()
-                .map(|signs| *signs * (1.0 - 2.0 * axis))
-                .collect();
-            all.extend(images);
-        }
-    }
-    all
-}
-
 /// Over the picture while the tool is in hand: what a drag does, form and size of the tool, the mirror across x, and
 /// how to put it away. The panel has the rest.
 pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
     let (mut inner, width) = head_bar(ui, rect, BAR, "clay");
     let ui = &mut inner;
     let hand = &session.clay_hand;
-    let mut hold = |hand: ClayHand| commands.push(Command::Clay(ClayCommand::Hold(hand)));
     let side = theme::control_height();
-    let room = (width - 12.0 - 4.0 * (side + 2.0) - 12.0).max(120.0);
+    let is_wide = width >= NARROW;
+    let buttons = if is_wide { 5.0 } else { 4.0 };
+    let room = (width - 12.0 - buttons * (side + 2.0) - 12.0).max(120.0);
     let (way_width, form_width) = (0.56 * room, 0.44 * room);
     let shown = widget::combo("way of strokes", way_title(hand.way).0, way_width);
     let shown = shown.show_ui(ui, |ui| {
@@ -432,15 +418,44 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
             let (title, hint) = way_title(way);
             let label = ui.selectable_label(way == hand.way, title);
             if label.on_hover_text(hint).clicked() {
-                hold(ClayHand {
+                commands.push(held(ClayHand {
                     way,
                     ..hand.clone()
-                });
+                }));
             }
         }
     });
     let hint = format!("{}\n{}", way_title(hand.way).1, w().drag);
     shown.response.named(w().way).on_hover_text(hint);
+    if session.laid().is_some() {
+        handles_ui(ui, session.gizmo, form_width, commands);
+    } else {
+        form_ui(ui, hand, form_width, commands);
+    }
+    let [x, y, z] = hand.mirror;
+    let name = fill(w().mirror, &[&"x"]);
+    let mut mirrors = || ui.add_sized(vec2(side, side), egui::Button::new("X").selected(x));
+    if is_wide
+        && mirrors()
+            .named(&name)
+            .on_hover_text(w().mirror_hint)
+            .clicked()
+    {
+        commands.push(held(ClayHand {
+            mirror: [!x, y, z],
+            ..hand.clone()
+        }));
+    }
+    buttons_ui(ui, session, commands);
+}
+
+/// Takes another tool in hand.
+fn held(hand: ClayHand) -> Command {
+    Command::Clay(ClayCommand::Hold(hand))
+}
+
+/// The form of the tool.
+fn form_ui(ui: &mut Ui, hand: &ClayHand, form_width: f32, commands: &mut Vec<Command>) {
     let shown = widget::combo("form of strokes", form_title(hand.form), form_width);
     let shown = shown.show_ui(ui, |ui| {
         for form in 0..ClayHand::FORMS.len() {
@@ -448,32 +463,71 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
                 .selectable_label(form == hand.form, form_title(form))
                 .clicked()
             {
-                hold(ClayHand {
+                let hand = ClayHand {
                     form,
                     ..hand.clone()
-                });
+                };
+                commands.push(held(hand));
             }
         }
     });
     shown.response.named(w().form).on_hover_text(w().form);
-    let [x, y, z] = hand.mirror;
-    let name = fill(w().mirror, &[&"x"]);
-    let response = ui.add_sized(vec2(side, side), egui::Button::new("X").selected(x));
-    if response
-        .named(&name)
-        .on_hover_text(w().mirror_hint)
-        .clicked()
-    {
-        hold(ClayHand {
-            mirror: [!x, y, z],
-            ..hand.clone()
-        });
+}
+
+/// What the handles of the tool that is laid down do.
+fn handles_ui(ui: &mut Ui, current: GizmoMode, width: f32, commands: &mut Vec<Command>) {
+    let shown = widget::combo("handles of the tool", gizmo_name(current), width);
+    let shown = shown.show_ui(ui, |ui| {
+        for mode in GizmoMode::ALL {
+            if ui
+                .selectable_label(mode == current, gizmo_name(mode))
+                .clicked()
+            {
+                commands.push(Command::SetGizmo(mode));
+            }
+        }
+    });
+    shown.response.named(picture::w().handles);
+}
+
+/// The buttons at the end of the bar. What is laid down is done and taken back where else the tool is sized.
+fn buttons_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let together = &session.together;
+    let act = Command::Clay(ClayCommand::Act);
+    let take_back = (Icon::Undo, w().take_back, Command::DeleteSelected, true);
+    let shown = match (together.ghosts.is_empty(), session.laid().is_some()) {
+        (true, false) => vec![
+            (Icon::Down, w().smaller, Command::NudgeMain(-1.0), true),
+            (Icon::Up, w().larger, Command::NudgeMain(1.0), true),
+        ],
+        (true, true) => vec![take_back],
+        (false, false) => vec![take_back, (Icon::Check, w().act, act, together.may_act())],
+        (false, true) => vec![(Icon::Check, w().act, act, together.may_act())],
+    };
+    for (icon, name, command, is_enabled) in shown {
+        if widget::icon_button(ui, icon, name, is_enabled).clicked() {
+            commands.push(command);
+        }
     }
-    if widget::icon_button(ui, Icon::Down, w().smaller, true).clicked() {
-        commands.push(Command::NudgeMain(-1.0));
+    let side = theme::control_height();
+    let hand = &session.clay_hand;
+    if session.laid().is_some() {
+        let toggle =
+            widget::icon_button_sized(ui, Icon::Brush, w().acts_hint, true, hand.acts, side);
+        if toggle.accessible_name(w().acts).clicked() {
+            let acts = !hand.acts;
+            let hand = ClayHand {
+                acts,
+                ..hand.clone()
+            };
+            commands.push(held(hand));
+        }
     }
-    if widget::icon_button(ui, Icon::Up, w().larger, true).clicked() {
-        commands.push(Command::NudgeMain(1.0));
+    let is_on = together.is_on;
+    let hint = w().together_hint;
+    let toggle = widget::icon_button_sized(ui, Icon::Layers, hint, true, is_on, side);
+    if toggle.accessible_name(w().together).clicked() {
+        commands.push(Command::Clay(ClayCommand::Together));
     }
     if widget::icon_button(ui, Icon::Close, w().put_away, true).clicked() {
         commands.push(Command::Clay(ClayCommand::Toggle));

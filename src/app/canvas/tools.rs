@@ -126,7 +126,7 @@ pub(crate) fn asking_ui(
 }
 
 /// What a kind of handle is called.
-fn gizmo_name(mode: GizmoMode) -> &'static str {
+pub(super) fn gizmo_name(mode: GizmoMode) -> &'static str {
     match mode {
         GizmoMode::Move => w().r#move,
         GizmoMode::Turn => w().turn,

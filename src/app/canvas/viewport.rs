@@ -11,6 +11,7 @@ use super::ball::{self, PictureBall};
 use super::captions::Followed;
 use super::drawn::DrawnWay;
 use super::figure::FigureCanvas;
+use super::ghosts;
 use super::gizmo::Gizmo;
 use super::held::Held;
 use super::measure::Distances;
@@ -235,8 +236,16 @@ impl Viewport {
                 ball::bar_ui(ui, bars, session, erases, commands);
             }
             Tool::Clay => {
-                self.gizmo.release();
-                self.shaping.paint(ui, &view, session);
+                if !self.gizmo.is_hot() {
+                    self.shaping.paint(ui, &view, session);
+                }
+                ghosts::ui(ui, &view, session, commands);
+                match Held::of_tool(session) {
+                    Some(held) => {
+                        commands.extend(self.gizmo.ui(ui, &response, &view, held, session));
+                    }
+                    None => self.gizmo.release(),
+                }
                 shaping::bar_ui(ui, bars, session, commands);
             }
             Tool::Look | Tool::Figure(_) if session.view.is_figure() => {
@@ -291,9 +300,7 @@ impl Viewport {
         let object = session.selected_object();
         if let Some(object) = object.and_then(|object| session.placed_object(object)) {
             let held = Held::Object(&object);
-            if let Some(edit) = self.gizmo.ui(ui, response, view, held, session) {
-                commands.push(Command::Drag(edit));
-            }
+            commands.extend(self.gizmo.ui(ui, response, view, held, session));
             let is_enabled = session
                 .selected_object()
                 .is_some_and(|object| object.enabled);
@@ -309,11 +316,9 @@ impl Viewport {
         let is_key = ways::ui(ui, view, template, asked, commands);
         if curve::ui(ui, view, template, commands) || is_point || is_key {
             self.gizmo.release();
-        } else if let Some(edit) =
-            self.gizmo
-                .ui(ui, response, view, Held::Template(template), session)
-        {
-            commands.push(Command::Drag(edit));
+        } else {
+            let held = Held::Template(template);
+            commands.extend(self.gizmo.ui(ui, response, view, held, session));
         }
         tools_ui(ui, bars, session, template.enabled, commands);
     }
@@ -579,7 +584,9 @@ impl Viewport {
                 let places = slow_click::places(ui, response).into_iter();
                 commands.extend(places.map(|pos| Command::UseToolAt(pixel(pos))));
             }
-            Some(at) if session.tool() != Tool::Look && response.clicked() => {
+            Some(at)
+                if session.tool() != Tool::Look && response.clicked() && !self.gizmo.is_hot() =>
+            {
                 commands.push(Command::UseToolAt(at));
             }
             Some(at) if session.tool() == Tool::Look && response.double_clicked() && is_free => {

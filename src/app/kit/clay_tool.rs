@@ -15,6 +15,7 @@ pub(crate) fn way_title(way: StrokeWay) -> (&'static str, &'static str) {
         StrokeWay::Turn => (w.turn, w.turn_hint),
         StrokeWay::Grow => (w.grow, w.grow_hint),
         StrokeWay::Smooth => (w.smooth, w.smooth_hint),
+        StrokeWay::Place => (w.place, w.place_hint),
     }
 }
 

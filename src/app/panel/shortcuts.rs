@@ -2,7 +2,7 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use crate::app::session::{Command, GizmoMode, See, StandardView, StepCommand};
+use crate::app::session::{ClayCommand, Command, GizmoMode, See, StandardView, StepCommand};
 use crate::app::words::keys::w;
 use crate::document::Plane;
 
@@ -92,6 +92,12 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
             w.mirror,
         ),
         entry(NONE, Key::L, Command::LayOnSurface, w.lay),
+        entry(
+            NONE,
+            Key::J,
+            Command::Clay(ClayCommand::Together),
+            crate::app::words::clay::w().key_together,
+        ),
         entry(NONE, Key::K, Command::ToggleSnap, w.snap),
         entry(
             SHIFT,

@@ -52,7 +52,8 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut
             || w().undo.to_owned(),
             |what| fill(w().undo_what, &[&names::edit_title(what)]),
         );
-        let response = widget::icon_button(ui, Icon::Undo, &name, undo.is_some());
+        let is_enabled = undo.is_some() || !session.together.ghosts.is_empty();
+        let response = widget::icon_button(ui, Icon::Undo, &name, is_enabled);
         if response.accessible_name(w().undo).clicked() {
             commands.push(Command::Undo);
         }

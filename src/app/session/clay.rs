@@ -1,8 +1,12 @@
 //! What an author holds to shape a clay, and what can be done with it, as plain data.
 
-use glam::{Quat, Vec3};
+use std::f64::consts::PI;
 
-use crate::document::{ClayShape, ClayTool, ToolShape};
+use glam::{DQuat, DVec3, Quat, Vec3};
+
+use super::found::Found;
+use crate::document::{ClayKey, ClayMove, ClayShape, ClayTool, ToolShape};
+use crate::math::Similarity;
 
 /// The sizes that a hand may hold, subject units.
 const SIZES: [f32; 2] = [0.01, 0.5];
@@ -25,17 +29,20 @@ pub enum StrokeWay {
     Grow,
     /// What is under the hand is smoothed.
     Smooth,
+    /// A click lays the tool down, and handles move it.
+    Place,
 }
 
 impl StrokeWay {
     /// All ways, in the order of the buttons.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Move,
         Self::Push,
         Self::Along,
         Self::Turn,
         Self::Grow,
         Self::Smooth,
+        Self::Place,
     ];
 
     /// True if the picture is asked for the surface all along the way of the hand.
@@ -72,6 +79,8 @@ pub struct ClayHand {
     pub turn_deg: f32,
     /// For x, y and z: it has a mirror image beyond the middle plane.
     pub mirror: [bool; 3],
+    /// The handles of the tool that is laid down shape the clay.
+    pub acts: bool,
 }
 
 impl Default for ClayHand {
@@ -84,6 +93,7 @@ impl Default for ClayHand {
             depth: 0.0,
             turn_deg: 0.0,
             mirror: [true, false, false],
+            acts: false,
         }
     }
 }
@@ -179,6 +189,66 @@ impl ClayHand {
     }
 }
 
+/// A tool with its way, laid down.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ghost {
+    /// The tool.
+    pub tool: ClayTool,
+    /// Its way. A tool with one key stays, and holds what is in it.
+    pub way: ClayMove,
+}
+
+/// How a tool stands at each of its keys.
+pub fn poses_of(keys: &[ClayKey]) -> Vec<Similarity> {
+    let mut turned = DQuat::IDENTITY;
+    let poses = keys.iter().map(|key| {
+        let [turn, at] = [key.turn, key.at].map(|parts| DVec3::from_array(parts.map(f64::from)));
+        turned = DQuat::from_scaled_axis(turn * (PI / 180.0)) * turned;
+        Similarity::new(f64::from(key.percent) / 100.0, turned, at / 1000.0)
+    });
+    poses.collect()
+}
+
+/// How a tool stands that is laid down by itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Its origin, subject space.
+    pub at: Vec3,
+    /// Its turn since its rest.
+    pub turn: Quat,
+    /// Half of its longest side, subject units.
+    pub size: f32,
+}
+
+/// A tool that is laid down to be moved by handles. Its form and its size are those of the hand.
+#[derive(Clone, Debug)]
+pub(super) struct Laid {
+    pub(super) at: Vec3,
+    pub(super) turn: Quat,
+    /// Its size when it was laid down.
+    pub(super) own: f32,
+    /// How it stood before the drag under way.
+    pub(super) before: Option<Pose>,
+    /// It is the last of the ghosts.
+    pub(super) is_ghost: bool,
+}
+
+/// What is laid down, in the order of the strokes.
+#[derive(Debug, Default)]
+pub struct Together {
+    /// Strokes that are drawn are laid down.
+    pub is_on: bool,
+    /// The ghosts. All have the mirror images of the tool in the hand.
+    pub ghosts: Vec<Ghost>,
+}
+
+impl Together {
+    /// True if a ghost moves.
+    pub fn may_act(&self) -> bool {
+        self.ghosts.iter().any(|ghost| ghost.way.keys.len() > 1)
+    }
+}
+
 /// One thing to do with a clay.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ClayCommand {
@@ -198,6 +268,18 @@ pub enum ClayCommand {
         /// The hand has let go.
         is_over: bool,
     },
+    /// From now on strokes that are drawn are only laid down, or done again.
+    Together,
+    /// Lays the tool down on the clay that was found.
+    LayOn(Option<Found>),
+    /// Puts the tool that is laid down elsewhere.
+    Put(Pose),
+    /// Does all that is laid down as one stroke.
+    Act,
+    /// Puts a key of something that is laid down elsewhere, subject space: its index and that of its key.
+    MoveGhost([usize; 2], Vec3),
+    /// Takes back what is laid down, by its index.
+    RemoveGhost(usize),
     /// Switches the stroke of this index off, or on again.
     Switch(usize),
     /// Removes the stroke of this index.

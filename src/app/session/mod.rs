@@ -20,6 +20,7 @@
 //! | `steps`, `playing` | recording the steps of a lesson, and playing them |
 //! | `figure` | making a figure: its regions and handles |
 //! | `clay`, `shaping` | the tool that shapes a clay, and what its strokes become |
+//! | `together`, `placing` | strokes that are laid down and done as one; a tool that is moved by handles |
 //! | `making`, `painting` | what can be done with tissues |
 //! | `seeking` | the search for a structure by name |
 //! | `lending`, `link`, `clock` | examples and recent documents; the link; what goes on by itself |
@@ -50,6 +51,7 @@ mod notices;
 pub mod objects;
 mod opening;
 mod painting;
+mod placing;
 mod playing;
 mod question;
 mod raw;
@@ -73,6 +75,7 @@ mod taken;
 mod templates;
 mod ticket;
 pub mod tissues;
+mod together;
 mod tool;
 mod tracing;
 mod using;
@@ -84,7 +87,7 @@ mod recording_tests;
 mod tests;
 
 pub use self::camera::StandardView;
-pub use self::clay::{ClayCommand, ClayHand, StrokeWay, Touch};
+pub use self::clay::{ClayCommand, ClayHand, Ghost, Pose, StrokeWay, Together, Touch, poses_of};
 pub use self::clipboard::{Clipboard, Copied};
 pub use self::command::{Command, GizmoMode, PicturePaper, StepCommand};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};

@@ -39,6 +39,7 @@ impl Session {
         // Whoever does something else has not chosen a picture.
         self.view.figure.wants_reference = false;
         match command {
+            Command::Undo if self.take_ghost_back() => {}
             Command::Undo => self.undo_or_redo(true),
             Command::Redo => self.undo_or_redo(false),
             Command::Apply(edit) => {
@@ -93,6 +94,7 @@ impl Session {
             Command::PlaceCarving(_, found) => self.place_carving(found),
             Command::PlaceTool(tool, found) => self.place_tool(tool, found),
             Command::SelectNext(forward) => self.select_next(forward),
+            Command::DeleteSelected if self.take_ghost_back() || self.lift_laid() => {}
             Command::DeleteSelected => self.delete_selected(),
             Command::DuplicateSelected => self.duplicate_selected(),
             Command::Copy => {
@@ -121,7 +123,7 @@ impl Session {
             // The keys are those of the ball while it is in hand.
             Command::NudgeMain(by) if self.tool().ball().is_some() => self.resize_ball(by > 0.0),
             Command::NudgeMain(by) if self.tool() == Tool::Clay => {
-                self.clay_hand = self.clay_hand.resized(by > 0.0);
+                self.resize_clay_tool(by > 0.0);
             }
             Command::NudgeMain(hundredths) if self.view.is_figure() => {
                 self.turn_of_figure(hundredths);
@@ -135,6 +137,7 @@ impl Session {
             }),
             Command::ResetView => self.glide_to(self.home),
             Command::MoveCamera(camera) => self.move_camera(camera),
+            Command::Orbit(x, y) if self.laid().is_some() => self.nudge_laid(x, y),
             Command::Orbit(x, y) => {
                 let mut camera = self.camera;
                 match self.view.is_figure() {
@@ -277,6 +280,8 @@ impl Session {
             self.take_tool(Tool::Measure(None));
         } else if !self.view.figure.draft.is_empty() {
             self.view.figure.draft.clear();
+        } else if self.drop_ghosts() || self.lift_laid() {
+            // Nothing of it is done.
         } else if self.tool != Tool::Look {
             self.take_tool(Tool::Look);
         } else if self.leave_making() {

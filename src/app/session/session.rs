@@ -2,7 +2,7 @@
 //! Other files of this room add what can be done with it.
 
 use super::camera;
-use super::clay::ClayHand;
+use super::clay::{ClayHand, Laid, Together};
 use super::clipboard::Clipboard;
 use super::command::{GizmoMode, PicturePaper};
 use super::effect::{Effect, LinkChange};
@@ -155,6 +155,10 @@ pub struct Session {
     pub(super) drawn_stroke: Option<usize>,
     /// The tool that shapes the clay while it is in hand.
     pub clay_hand: ClayHand,
+    /// The tool of the clay that is laid down.
+    pub(super) laid: Option<Laid>,
+    /// Strokes of the clay that are laid down.
+    pub together: Together,
     /// The selected template or object.
     pub selection: Selection,
     /// What the handles in the picture do.
@@ -267,6 +271,8 @@ impl Session {
             drawn: None,
             drawn_stroke: None,
             clay_hand: ClayHand::default(),
+            laid: None,
+            together: Together::default(),
             selection: Selection::Nothing,
             gizmo: GizmoMode::Move,
             notices: Notices::default(),
@@ -431,6 +437,8 @@ impl Session {
             // The tissue that is painted is marked; a clay is shaped as it is without templates.
             self.revision += 1;
         }
+        self.drop_ghosts();
+        self.lift_laid();
         self.tool = tool;
     }
 
@@ -524,6 +532,7 @@ impl Session {
     /// Ends the drag under way, so that the next change is a new step of undo.
     pub fn end_drag(&mut self) {
         self.history.end_drag();
+        self.rest_laid();
     }
 
     /// Changes what is shown, as a part of a drag or as one step of undo: the document, at a step above 0 what that

@@ -5,7 +5,7 @@ use glam::{DQuat, Quat, Vec3};
 use std::sync::Arc;
 
 use super::camera;
-use super::clay::{ClayCommand, ClayHand, StrokeWay, Touch};
+use super::clay::{ClayCommand, ClayHand, Ghost, StrokeWay, Touch};
 use super::drawing::{distance_to, thinned};
 use super::notices::Gravity;
 use super::selection::Selection;
@@ -34,7 +34,7 @@ const TURN_OF_KEY: f32 = 120.0;
 /// A tool grows to the double while the hand crosses this part of the picture.
 const DOUBLES: f32 = 0.25;
 /// Sizes of keys, per cent.
-const PERCENT: [f32; 2] = [5.0, 2000.0];
+pub(super) const PERCENT: [f32; 2] = [5.0, 2000.0];
 /// Longest turn of a key, degrees; rounding its parts may add one.
 const LONGEST_TURN: f32 = 178.0;
 /// Farthest place of a key, subject units.
@@ -71,12 +71,19 @@ impl Session {
             }
             ClayCommand::Toggle if self.tool() == Tool::Clay => self.take_tool(Tool::Look),
             ClayCommand::Toggle => self.take_clay_tool(),
-            ClayCommand::Hold(hand) => self.clay_hand = hand,
+            ClayCommand::Hold(hand) => self.hold_clay_tool(hand),
             ClayCommand::Draw {
                 way,
                 touches,
                 is_over,
             } => self.draw_stroke(way, &touches, is_over),
+            ClayCommand::Together if self.tool() == Tool::Clay => self.toggle_together(),
+            ClayCommand::Together => {}
+            ClayCommand::LayOn(found) => self.lay_tool(found),
+            ClayCommand::Put(pose) => self.put_laid(pose),
+            ClayCommand::Act => self.act_together(),
+            ClayCommand::MoveGhost([ghost, key], pos) => self.move_ghost((ghost, key), pos),
+            ClayCommand::RemoveGhost(ghost) => self.remove_ghost(ghost),
             ClayCommand::Switch(index) => self.switch_stroke(index),
             ClayCommand::Remove(stroke) => {
                 self.apply(&Edit::RemoveStroke { stroke }, false);
@@ -135,26 +142,52 @@ impl Session {
         Some(Edit::All { name, edits })
     }
 
-    /// Takes the way of a hand that shapes the clay. The whole gesture is one step of undo.
+    /// Takes the way of a hand that shapes the clay. The whole gesture is one step of undo. While strokes are laid down
+    /// it is a ghost in the end.
     fn draw_stroke(&mut self, way: StrokeWay, touches: &[Touch], is_over: bool) {
-        let drawn = self.drawn_stroke.take();
-        let Some(clay) = self.clay().filter(|_| self.tool() == Tool::Clay).cloned() else {
+        if self.tool() != Tool::Clay {
+            self.drawn_stroke = None;
             return;
+        }
+        let stroke = stroke(&self.clay_hand, way, touches, &self.camera);
+        let tool = self.clay_hand.tool();
+        if self.together.is_on && way != StrokeWay::Smooth {
+            let way = stroke.and_then(|stroke| stroke.moves.into_iter().next());
+            if let Some(way) = way.filter(|_| is_over) {
+                self.lay_ghost(Ghost { tool, way });
+            }
+            return;
+        }
+        match stroke {
+            Some(stroke) => {
+                self.put_stroke(stroke, &[tool], is_over);
+            }
+            None => self.drawn_stroke = self.drawn_stroke.filter(|_| !is_over),
+        }
+    }
+
+    /// Puts a stroke in place of the one that is being drawn, or behind the others; its moves name tools by their
+    /// places in this list. True if the document took it.
+    pub(super) fn put_stroke(
+        &mut self,
+        mut stroke: ClayStroke,
+        tools: &[ClayTool],
+        is_over: bool,
+    ) -> bool {
+        let drawn = self.drawn_stroke.take();
+        let Some(clay) = self.clay().cloned() else {
+            return false;
         };
         let index = drawn.unwrap_or(clay.strokes.len());
-        let tool = self.clay_hand.tool();
-        let Some((tool_index, tools)) = self.place_of_tool(&clay, index, &tool) else {
-            return self.notify(
-                Gravity::Info,
-                fill(w().too_many_tools, &[&Clay::MAX_TOOLS]),
-                "",
-            );
+        let Some((places, list)) = self.places_of_tools(&clay, index, tools) else {
+            let text = fill(w().too_many_tools, &[&Clay::MAX_TOOLS]);
+            self.notify(Gravity::Info, text, "");
+            return false;
         };
-        let Some(stroke) = stroke(&self.clay_hand, way, touches, &self.camera, tool_index) else {
-            self.drawn_stroke = drawn.filter(|_| !is_over);
-            return;
-        };
-        let mut edits: Vec<Edit> = tools.into_iter().collect();
+        for one in &mut stroke.moves {
+            one.tool = places[one.tool];
+        }
+        let mut edits: Vec<Edit> = list.into_iter().collect();
         let value = stroke.to_value();
         if drawn.is_none() {
             edits.push(Edit::AddStroke { index, stroke });
@@ -165,51 +198,63 @@ impl Session {
             value,
             name: name.clone(),
         });
-        if self.apply(&Edit::All { name, edits }, true) && !is_over {
-            self.drawn_stroke = Some(index);
-        }
+        let is_done = self.apply(&Edit::All { name, edits }, true);
+        self.drawn_stroke = (is_done && !is_over).then_some(index);
         if is_over {
             self.end_drag();
         }
+        is_done
     }
 
-    /// The place of a tool in the clay's list, and the edit that puts it there if it has none yet: in place of one that
-    /// no other stroke than that of the index uses, or behind the others. `None` if all places are taken.
-    fn place_of_tool(
+    /// The places of tools in the clay's list, and the edit that puts those there that have none yet: in place of some
+    /// that no other stroke than that of the index uses, or behind the others. `None` if all places are taken.
+    fn places_of_tools(
         &self,
         clay: &Clay,
         stroke: usize,
-        tool: &ClayTool,
-    ) -> Option<(usize, Option<Edit>)> {
-        if let Some(known) = clay.tools.iter().position(|other| other == tool) {
-            return Some((known, None));
-        }
+        tools: &[ClayTool],
+    ) -> Option<(Vec<usize>, Option<Edit>)> {
         let others = clay
             .strokes
             .iter()
             .enumerate()
             .filter(|(i, _)| *i != stroke);
         let moves = others.flat_map(|(_, stroke)| &stroke.moves);
-        let used: Vec<usize> = moves.map(|one| one.tool).collect();
-        let is_free = |i: &usize| clay.tools[*i].shape.is_some() && !used.contains(i);
-        let free = (0..clay.tools.len()).find(is_free);
-        let index = free.unwrap_or(clay.tools.len());
-        if index >= Clay::MAX_TOOLS {
-            return None;
-        }
+        let mut used: Vec<usize> = moves.map(|one| one.tool).collect();
         let listed = self.document().get(TOOLS).and_then(|list| list.as_array());
         let own = || clay.tools.iter().map(ClayTool::to_value).collect();
         let mut list: Vec<serde_json::Value> = listed.cloned().unwrap_or_else(own);
-        match list.get_mut(index) {
-            Some(entry) => *entry = tool.to_value(),
-            None => list.push(tool.to_value()),
+        let mut held = clay.tools.clone();
+        let mut places = Vec::with_capacity(tools.len());
+        for tool in tools {
+            let known = held.iter().position(|other| other == tool);
+            let is_free = |i: &usize| held[*i].shape.is_some() && !used.contains(i);
+            let free = || (0..held.len()).find(is_free);
+            let index = known.or_else(free).unwrap_or(held.len());
+            if index >= Clay::MAX_TOOLS {
+                return None;
+            }
+            if known.is_none() {
+                put(&mut held, index, tool.clone());
+                put(&mut list, index, tool.to_value());
+            }
+            used.push(index);
+            places.push(index);
         }
-        let edit = Edit::Set {
+        let edit = (held != clay.tools).then(|| Edit::Set {
             pointer: TOOLS.to_owned(),
             value: list.into(),
             name: String::new(),
-        };
-        Some((index, Some(edit)))
+        });
+        Some((places, edit))
+    }
+}
+
+/// Puts an entry into a list, in place of the one of this index or behind the others.
+fn put<T>(list: &mut Vec<T>, index: usize, entry: T) {
+    match list.get_mut(index) {
+        Some(there) => *there = entry,
+        None => list.push(entry),
     }
 }
 
@@ -260,26 +305,25 @@ fn changed(index: usize, stroke: &ClayStroke) -> Edit {
     }
 }
 
-fn thousandths(pos: Vec3) -> [i32; 3] {
+pub(super) fn thousandths(pos: Vec3) -> [i32; 3] {
     let pos = pos.clamp(Vec3::splat(-FARTHEST), Vec3::splat(FARTHEST));
     (pos * 1e3).round().as_ivec3().to_array()
 }
 
 /// A turn as whole degrees about the axes of the subject, the shorter way round.
-fn degrees(turn: Quat) -> [i32; 3] {
+pub(super) fn degrees(turn: Quat) -> [i32; 3] {
     let turn = if turn.w < 0.0 { -turn } else { turn };
     let vector = turn.to_scaled_axis() * (180.0 / std::f32::consts::PI);
     let vector = vector.clamp_length_max(LONGEST_TURN);
     vector.round().as_ivec3().to_array()
 }
 
-/// The stroke that a gesture is; `None` where it has come to nothing yet.
+/// The stroke that a gesture is, by the first tool of a list; `None` where it has come to nothing yet.
 fn stroke(
     hand: &ClayHand,
     way: StrokeWay,
     touches: &[Touch],
     camera: &Camera,
-    tool: usize,
 ) -> Option<ClayStroke> {
     let (first, last) = (touches.first()?, touches.last()?);
     let (at, turn) = hand.pose(first);
@@ -293,6 +337,7 @@ fn stroke(
     let gone = last.pos - first.pos;
     let [across, risen] = [gone.dot(right), gone.dot(up)];
     let (keys, is_straight) = match way {
+        StrokeWay::Place => return None,
         StrokeWay::Move | StrokeWay::Along | StrokeWay::Smooth => {
             let places = touches.iter().map(|touch| match way {
                 StrokeWay::Move => at + (touch.pos - first.pos),
@@ -344,7 +389,7 @@ fn stroke(
     let smooth = (way == StrokeWay::Smooth).then_some(ClayStroke::DEFAULT_STRENGTH);
     (smooth.is_some() || !is_still).then(|| ClayStroke {
         moves: vec![ClayMove {
-            tool,
+            tool: 0,
             keys,
             is_straight,
         }],

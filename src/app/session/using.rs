@@ -22,7 +22,11 @@ impl Session {
     /// Asks about a pixel of the picture for the active tool.
     pub(super) fn use_tool_at(&mut self, pixel: [f32; 2]) {
         let reply: fn(usize, Option<Found>) -> Command = match self.tool {
-            Tool::Look | Tool::Level | Tool::Paint { .. } | Tool::Figure(_) | Tool::Clay => return,
+            Tool::Look | Tool::Level | Tool::Paint { .. } | Tool::Figure(_) => return,
+            Tool::Clay => {
+                let question = self.ask_where_to_lay(Place::Pixel(pixel));
+                return self.effects.extend(question.map(Effect::Ask));
+            }
             Tool::Place(_) => |_, found| Command::PlaceOn(found),
             Tool::Caption => |_, found| Command::CaptionOn(found),
             Tool::Seed(_) => |_, found| Command::SeedOn(found),
@@ -40,17 +44,19 @@ impl Session {
             Tool::Place(_) => |_, found| Command::PlaceOnOrAtTarget(found),
             Tool::Caption => |_, found| Command::CaptionOn(found),
             Tool::Figure(_) => return self.use_figure_tool_in_middle(),
-            Tool::Look
-            | Tool::Seed(_)
-            | Tool::Paint { .. }
-            | Tool::Measure(_)
-            | Tool::Level
-            | Tool::Clay => return,
+            Tool::Look | Tool::Seed(_) | Tool::Paint { .. } | Tool::Measure(_) | Tool::Level => {
+                return;
+            }
+            Tool::Clay if !self.together.ghosts.is_empty() => return self.act_together(),
+            Tool::Clay => {
+                let question = self.ask_where_to_lay(Place::Middle);
+                return self.effects.extend(question.map(Effect::Ask));
+            }
         };
         self.effect(Effect::Ask(Question::new(Place::Middle, reply)));
     }
 
-    fn notify_nothing_here(&mut self) {
+    pub(super) fn notify_nothing_here(&mut self) {
         self.notify(Gravity::Info, messages::w().nothing_here, "");
     }
 

@@ -20,6 +20,10 @@ words! {
         turn_hint: "Sideways turns the tool about the surface's normal", "Seitwärts dreht das Werkzeug um die Flächennormale", "De lado gira el instrumento sobre la normal de la superficie", "左右拖动使器械绕表面法线旋转";
         grow_hint: "Up makes the tool grow and what is in it, down makes it shrink", "Nach oben wächst das Werkzeug und was in ihm ist, nach unten schrumpft es", "Hacia arriba crece el instrumento y lo que contiene, hacia abajo encoge", "向上使器械及其中部分变大，向下变小";
         smooth_hint: "What is under the hand is smoothed; with Shift held any drag does", "Was unter der Hand ist, wird geglättet; mit Umschalt tut es jedes Ziehen", "Alisa lo que está bajo la mano; con Mayús lo hace cualquier arrastre", "平滑手下的部分；按住 Shift 时任何拖动皆如此";
+        place: "Place", "Hinlegen", "Colocar", "放置";
+        place_hint: "A click lays the tool down; its handles, or the arrow keys, move it, turn it (T) and size it (S). With “Together” it holds what is in it until it is moved", "Ein Klick legt das Werkzeug hin; seine Griffe oder die Pfeiltasten bewegen, drehen (T) und vergrößern (S) es. Mit „Gemeinsam“ hält es, was in ihm ist, bis es bewegt wird", "Un clic deja el instrumento; sus tiradores o las flechas lo mueven, lo giran (T) y cambian su tamaño (S). Con «A la vez» sujeta lo que contiene hasta que se mueve", "单击放下器械；用手柄或方向键移动、旋转 (T)、缩放 (S)。启用“同时”时，移动前固定其中的部分";
+        acts: "Handles act", "Griffe wirken", "Los tiradores actúan", "手柄起作用";
+        acts_hint: "Handles act: each drag of one shapes the clay by the tool on its way; otherwise they only place it", "Griffe wirken: jedes Ziehen formt den Ton mit dem Werkzeug auf seinem Weg; sonst legen sie es nur zurecht", "Los tiradores actúan: cada arrastre modela la arcilla con el instrumento por su camino; si no, solo lo colocan", "手柄起作用：每次拖动都让器械沿途塑形；否则只摆放器械";
         form: "Form of the tool", "Form des Werkzeugs", "Forma del instrumento", "器械的形状";
         size: "Size", "Größe", "Tamaño", "大小";
         size_hint: "Half the length of the tool; [ and ], or F held and the pointer or the wheel", "Halbe Länge des Werkzeugs; [ und ] oder F halten und Zeiger oder Rad bewegen", "Mitad de la longitud del instrumento; [ y ], o F pulsada y el puntero o la rueda", "器械长度的一半；[ 和 ]，或按住 F 移动指针或滚动滚轮";
@@ -54,6 +58,13 @@ words! {
         key_size_does: "Size the tool; with Shift its coating", "Größe des Werkzeugs; mit Umschalt der Mantel", "Tamaño del instrumento; con Mayús el recubrimiento", "调整器械大小；加 Shift 调影响层";
         key_turn: "R held over clay", "R halten über Ton", "R pulsada sobre arcilla", "在黏土上按住 R";
         key_turn_does: "Turn the tool", "Werkzeug drehen", "Girar el instrumento", "转动器械";
+        key_act: "Enter over clay", "Eingabe über Ton", "Intro sobre arcilla", "在黏土上按回车";
+        key_together: "Lay strokes on clay down, or do them again", "Striche auf Ton vormerken oder wieder ausführen", "Dejar previstos los trazos sobre arcilla, o volver a hacerlos", "预置黏土笔划，或恢复直接执行";
+        together: "Together", "Gemeinsam", "A la vez", "同时";
+        together_hint: "Together (J): strokes are only laid down until Enter does them as one; Escape drops them, Undo takes the last one back. Smoothing is done at once", "Gemeinsam (J): Striche werden nur vorgemerkt, bis die Eingabetaste sie als einen ausführt; Esc verwirft sie, Rückgängig nimmt den letzten zurück. Geglättet wird sofort", "A la vez (J): los trazos solo se prevén hasta que Intro los hace como uno; Esc los descarta, Deshacer retira el último. El alisado se hace al momento", "同时 (J)：笔划只是预置，按回车时合为一笔执行；Esc 全部放弃，撤销收回最后一笔。平滑则立即执行";
+        act: "Do what is laid down as one stroke", "Vorgemerktes als einen Strich ausführen", "Hacer lo previsto como un solo trazo", "把预置的合为一笔执行";
+        take_back: "Take back what was laid down last", "Zuletzt Vorgemerktes zurücknehmen", "Retirar lo último previsto", "收回最后预置的";
+        too_many_at_once: "At most {0} tools act at once, mirror images counted", "Höchstens {0} Werkzeuge wirken gleichzeitig, Spiegelbilder mitgezählt", "Como máximo actúan {0} instrumentos a la vez, contando las imágenes reflejadas", "最多 {0} 件器械同时作用，镜像计入";
         drag: "Drag over the clay; beside it turns the view", "Über den Ton ziehen; daneben dreht es die Ansicht", "Arrastre sobre la arcilla; al lado gira la vista", "在黏土上拖动；旁边则转动视图";
     }
 }
