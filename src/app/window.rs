@@ -343,7 +343,7 @@ impl App {
         for effect in effects {
             match effect {
                 Effect::LoadSubject(subject) => {
-                    let ticket = services.load(&Want::subject(&subject));
+                    let ticket = services.load(&self.assets.subject_want(&subject));
                     self.session.load_started(ticket);
                 }
                 Effect::CancelLoad(ticket) => services.cancel_load(ticket),

@@ -10,6 +10,7 @@ use super::shaping::{Shaped, Shaping};
 use super::suite::{ball, clay, key, place, stroke, suite};
 use super::way::Way;
 use super::{LeftOut, Space};
+use crate::data::Grids;
 use crate::data::mesh::testing::cube;
 use crate::displace::ToolShape;
 use crate::document::{Clay, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool};
@@ -140,7 +141,7 @@ fn the_mesh_stands_for_the_exact_sweep() {
             unreachable!("the suite begins with built-in shapes")
         };
         let shaped = shape(&clay).shaped();
-        let way = Way::of(&clay);
+        let way = Way::of(&clay, &Grids::default());
         let all = shaped.positions.iter().zip(&shaped.normals).step_by(3);
         let seen: Vec<_> = all.map(|(p, n)| (p.as_dvec3(), n.as_dvec3())).collect();
         let mut exact = seen.clone();
@@ -307,7 +308,7 @@ fn a_tool_pressed_into_one_huge_triangle_shapes_it() {
 #[test]
 fn the_way_back_is_the_inverse() {
     for (name, clay) in suite() {
-        let way = Way::of(&clay);
+        let way = Way::of(&clay, &Grids::default());
         let shaped = shape(&clay).shaped();
         let mut far = 0;
         let all = shaped.positions.iter().step_by(37);

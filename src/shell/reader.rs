@@ -885,7 +885,7 @@ impl Inner {
         let Some(src) = want.src() else {
             let message = wanted_file(want.name());
             return match want.role {
-                Role::Object | Role::Mesh => Way::Fail(message),
+                Role::Object | Role::Mesh | Role::Tool => Way::Fail(message),
                 _ => Way::File(message),
             };
         };

@@ -211,7 +211,7 @@ pub fn unpacked_places(held: &JsValue) -> Option<Vec<Vec2>> {
 }
 
 /// How many arrays a surface has.
-pub const SURFACE_ARRAYS: usize = 17;
+pub const SURFACE_ARRAYS: usize = 19;
 
 /// Puts an array of a surface, by its index in [`packed_surface`], to those that have come. Each comes in a message of
 /// its own, so that no frame waits for all of them. `None` if it is none.
@@ -242,6 +242,8 @@ pub fn put_array(arrays: &mut SurfaceArrays, index: u32, held: &JsValue) -> Opti
         14 => arrays.carver_numbers = floats()?,
         15 => arrays.carver_levels = indices()?,
         16 => arrays.carver_texels = indices()?,
+        17 => arrays.grid_sides = indices()?,
+        18 => arrays.grid_values = floats()?,
         _ => return None,
     }
     Some(())
@@ -271,6 +273,8 @@ pub fn packed_surface(surface: &Surface) -> [JsValue; SURFACE_ARRAYS] {
         floats(&arrays.carver_numbers),
         indices(&arrays.carver_levels),
         indices(&arrays.carver_texels),
+        indices(&arrays.grid_sides),
+        floats(&arrays.grid_values),
     ]
 }
 

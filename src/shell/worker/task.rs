@@ -339,7 +339,7 @@ pub fn text_of_reading(reading: &Reading) -> String {
     }).collect();
     json!({
         "frame": reading.frame, "raw": raw, "mesh": value_of_mesh(&reading.mesh), "bounds": bounds, "meshes": meshes,
-        "carves": reading.carves,
+        "carves": reading.carves, "sweeps": reading.sweeps,
     })
     .to_string()
 }
@@ -360,6 +360,7 @@ pub fn reading_of(text: &str) -> Reading {
         mesh: value.get("mesh").map(mesh_of).unwrap_or_default(),
         bounds: value.get("bounds").and_then(bounds_of),
         carves: value.get("carves").and_then(Value::as_bool) == Some(true),
+        sweeps: value.get("sweeps").and_then(Value::as_bool) == Some(true),
         meshes: value
             .get("meshes")
             .and_then(Value::as_array)
