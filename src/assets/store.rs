@@ -167,11 +167,16 @@ impl Assets {
         self.clay_meshes.clone_from(&self.asked_meshes);
     }
 
-    /// What is asked for to have a subject: of a clay with the grids of its tools that are there.
-    pub fn subject_want(&mut self, subject: &SubjectRef) -> Want {
-        let want = self.with_meshes(Want::subject(subject));
-        self.asked_meshes.clone_from(&want.meshes);
-        want
+    /// What is to be asked for to have a subject: of a clay with the grids of its tools that are there.
+    pub fn subject_want(&self, subject: &SubjectRef) -> Want {
+        self.with_meshes(Want::subject(subject))
+    }
+
+    /// This is asked for now. A subject that comes next is made with its grids.
+    pub fn asked_for(&mut self, want: &Want) {
+        if want.role == Role::Subject {
+            self.asked_meshes.clone_from(&want.meshes);
+        }
     }
 
     /// True if meshes have come since a clay was last asked for that its tools are made of.
@@ -621,7 +626,10 @@ fn number_of_own(segment: &Segment) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::{SubjectPart, SubjectSink as _, Volume, VolumeBuilder, Voxels};
+    use crate::data::mesh::testing::cube;
+    use crate::data::{
+        Mesh, MeshPart, SubjectPart, SubjectSink as _, Surface, Volume, VolumeBuilder, Voxels,
+    };
     use crate::document::Document;
     use glam::{DAffine3, UVec3};
 
@@ -701,5 +709,84 @@ mod tests {
         // A subject that comes anew is named anew.
         assets.give(data());
         assert_eq!(assets.resources(illustration).1.len(), 1);
+    }
+
+    /// A cube, or one without its lid, as a tool.
+    fn tool(is_open: bool) -> Arc<Surface> {
+        let (positions, mut triangles) = cube();
+        if is_open {
+            triangles.truncate(10);
+        }
+        let parts = vec![MeshPart {
+            name: "cube".to_owned(),
+            triangles: 0..triangles.len(),
+        }];
+        let mesh = Mesh {
+            positions,
+            triangles,
+            parts,
+            ..Mesh::default()
+        };
+        let surface = Surface::new(&mesh, None, &mut |_| true).expect("it has a size");
+        Arc::new(surface.sweeping(&mut |_| true).expect("not stopped"))
+    }
+
+    #[test]
+    fn a_clay_is_asked_for_again_when_its_tools_have_come() {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "tools": [{ "shape": "mesh", "src": "a.stl" }] } },
+            "templates": [{ "kind": "sweep", "params": { "tools": [{ "shape": "mesh", "src": "b.stl", "name": "lid" }] } }] }"#;
+        let document = Document::from_json(text).expect("a document");
+        let illustration = document.illustration();
+        let SubjectRef::Clay(clay) = &illustration.subject else {
+            panic!("a clay")
+        };
+        let mut assets = Assets::default();
+        let roles = |assets: &Assets| -> Vec<Role> {
+            let missing = assets.missing(illustration).into_iter();
+            missing.map(|want| want.role).collect()
+        };
+        let shaped = |assets: &mut Assets| {
+            let want = assets.subject_want(&illustration.subject);
+            assets.asked_for(&want);
+            let data = Data::Subject {
+                subject: Subject::Mesh(tool(false)),
+                sha256: None,
+            };
+            assets.give_subject(data, Some(Arc::clone(clay)));
+            want.meshes.len()
+        };
+        assert_eq!(shaped(&mut assets), 0);
+        assert!(!assets.has_new_tools(clay));
+        assert_eq!(roles(&assets), [Role::Tool, Role::Tool]);
+        let take = |assets: &mut Assets, is_open: bool| {
+            let mut missing = assets.missing(illustration).into_iter();
+            let want = missing.find(|want| want.role == Role::Tool).expect("one");
+            let data = Data::Object {
+                mesh: tool(is_open),
+                sha256: None,
+            };
+            assets.take(&want, data).expect("no hash is given");
+        };
+        take(&mut assets, false);
+        assert!(assets.has_new_tools(clay));
+        assert_eq!(roles(&assets), [Role::Subject, Role::Tool]);
+        assert_eq!(shaped(&mut assets), 1);
+        assert!(!assets.has_new_tools(clay));
+        // The tool of a template is none of the clay's. That it is a sheet is told once.
+        take(&mut assets, true);
+        assert!(!assets.has_new_tools(clay) && roles(&assets).is_empty());
+        let (resources, news) = assets.resources(illustration);
+        let keys: Vec<&str> = resources
+            .grids
+            .files
+            .iter()
+            .map(|(key, _)| &**key)
+            .collect();
+        assert_eq!(keys, ["a.stl", "b.stl"]);
+        let lines: Vec<String> = news.iter().map(ToString::to_string).collect();
+        let told =
+            "/templates/0/params/tools/0: “lid” is open and has no inside: as a tool it is a sheet";
+        assert_eq!(lines, [told]);
+        assert_eq!(assets.resources(illustration), (resources, Vec::new()));
     }
 }

@@ -236,7 +236,7 @@ impl ToolFile {
 impl ToolShape {
     /// Names in documents of the forms that numbers alone describe.
     pub const NAMES: [&'static str; 6] = ["ball", "ellipsoid", "capsule", "box", "torus", "curve"];
-    /// Names of all forms that the tools of a sweep may have, in the order of the numbers that the shaders know them by.
+    /// Names of all forms that tools of a sweep may have, in the order of the numbers that the shaders know them by.
     pub const OF_SWEEPS: [&'static str; 7] = [
         "ball",
         "ellipsoid",
@@ -337,7 +337,7 @@ impl ToolShape {
     }
 
     /// True if both differ in numbers alone, so that there are forms between them.
-    fn is_like(&self, other: &Self) -> bool {
+    pub fn is_like(&self, other: &Self) -> bool {
         let is_same = match (self, other) {
             (Self::Mesh { file, .. }, Self::Mesh { file: own, .. }) => file == own,
             (Self::Clay { strokes, .. }, Self::Clay { strokes: own, .. }) => strokes == own,

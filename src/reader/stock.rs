@@ -140,6 +140,9 @@ impl Stock {
         missing.retain(|want| !self.assets.is_refused(want));
         self.loading = missing.into_iter().next();
         self.fraction = 0.0;
+        if let Some(want) = &self.loading {
+            self.assets.asked_for(want);
+        }
         self.loading.clone()
     }
 

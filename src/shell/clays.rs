@@ -435,7 +435,7 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
 mod tests {
     use super::*;
     use crate::clay::Check;
-    use crate::document::{ClayTool, Document};
+    use crate::document::{ClayTool, Document, ToolShape};
     use crate::load::MemoryFiles;
 
     const PULLED: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05, "tools": [{ "radius": 0.1 }],
@@ -519,6 +519,40 @@ mod tests {
         };
         desk.shape(&Arc::new(other), &mut hear).unwrap();
         assert!(is_first);
+    }
+
+    /// A tool made of an earlier state, which nobody kept: the desk goes back to it.
+    #[test]
+    fn what_is_baked_late_is_as_if_made_anew() {
+        let clay = pulled();
+        let mut desk = ClayDesk::default();
+        desk.shape(&clay, &mut |_| true).unwrap();
+        let mut other = Clay::clone(&clay);
+        other.tools.push(ClayTool {
+            shape: Some(ToolShape::Clay {
+                strokes: 1,
+                longest: 0.3,
+            }),
+            coat: 0.1,
+        });
+        let mut stroke = other.strokes[0].clone();
+        stroke.moves[0].tool = 1;
+        stroke.moves[0]
+            .keys
+            .iter_mut()
+            .for_each(|key| key.at.reverse());
+        other.strokes.push(stroke);
+        let other = Arc::new(other);
+        let late = desk.shape(&other, &mut |_| true).unwrap();
+        assert_eq!(late.left_out(), []);
+        let late = late.shaped();
+        let anew = ClayDesk::default()
+            .shape(&other, &mut |_| true)
+            .unwrap()
+            .shaped();
+        assert_eq!(late, anew);
+        let (surface, _) = surface_of_clay(&mut desk, &other, &mut |_| true).unwrap();
+        assert_eq!(surface.grids.len(), 1, "captions go with the tool");
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::pen::Pen;
 use super::projection::{Projection, pixels_of};
 use super::tools::head_bar;
 use super::ways::paint_way;
-use crate::app::kit::clay_tool::{form_title, way_title};
+use crate::app::kit::clay_tool::{form_title, held_title, own_title, way_title};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, over_picture as ink};
 use crate::app::kit::widget::{self, Named as _};
@@ -18,6 +18,7 @@ use crate::app::picture::host::Picture;
 use crate::app::session::{ClayCommand, ClayHand, Command, Session, StrokeWay, Tool, Touch};
 use crate::app::words::clay::w;
 use crate::app::words::fill;
+use crate::document::ToolShape;
 use crate::render::{PendingPick, Pick};
 
 /// Width of the bar, points.
@@ -416,6 +417,19 @@ fn images(mirror: [bool; 3]) -> Vec<Vec3> {
     all
 }
 
+/// The meshes and baked clays among the tools of the clay, each once.
+fn own_shapes(session: &Session) -> Vec<&ToolShape> {
+    let tools = session.clay().into_iter().flat_map(|clay| &clay.tools);
+    let mut own: Vec<&ToolShape> = Vec::new();
+    for shape in tools.filter_map(|tool| tool.shape.as_ref()) {
+        let is_plain = ToolShape::NAMES.contains(&shape.name());
+        if !is_plain && !own.iter().any(|known| known.is_like(shape)) {
+            own.push(shape);
+        }
+    }
+    own
+}
+
 /// Over the picture while the tool is in hand: what a drag does, form and size of the tool, the mirror across x, and
 /// how to put it away. The panel has the rest.
 pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
@@ -441,15 +455,23 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
     });
     let hint = format!("{}\n{}", way_title(hand.way).1, w().drag);
     shown.response.named(w().way).on_hover_text(hint);
-    let shown = widget::combo("form of strokes", form_title(hand.form), form_width);
+    let shown = widget::combo("form of strokes", &held_title(hand), form_width);
     let shown = shown.show_ui(ui, |ui| {
         for form in 0..ClayHand::FORMS.len() {
-            if ui
-                .selectable_label(form == hand.form, form_title(form))
-                .clicked()
-            {
+            let is_held = form == hand.form && hand.own.is_none();
+            if ui.selectable_label(is_held, form_title(form)).clicked() {
                 hold(ClayHand {
                     form,
+                    own: None,
+                    ..hand.clone()
+                });
+            }
+        }
+        for own in own_shapes(session) {
+            let is_held = hand.own.as_ref().is_some_and(|held| held.is_like(own));
+            if ui.selectable_label(is_held, own_title(own)).clicked() {
+                hold(ClayHand {
+                    own: Some(own.clone()),
                     ..hand.clone()
                 });
             }

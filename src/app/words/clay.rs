@@ -21,6 +21,8 @@ words! {
         grow_hint: "Up makes the tool grow and what is in it, down makes it shrink", "Nach oben wächst das Werkzeug und was in ihm ist, nach unten schrumpft es", "Hacia arriba crece el instrumento y lo que contiene, hacia abajo encoge", "向上使器械及其中部分变大，向下变小";
         smooth_hint: "What is under the hand is smoothed; with Shift held any drag does", "Was unter der Hand ist, wird geglättet; mit Umschalt tut es jedes Ziehen", "Alisa lo que está bajo la mano; con Mayús lo hace cualquier arrastre", "平滑手下的部分；按住 Shift 时任何拖动皆如此";
         form: "Form of the tool", "Form des Werkzeugs", "Forma del instrumento", "器械的形状";
+        bake: "Bake the clay", "Ton backen", "Cocer la arcilla", "烘焙黏土";
+        bake_hint: "The clay as it stands becomes a tool in the hand", "Der Ton, wie er jetzt ist, wird ein Werkzeug in der Hand", "La arcilla tal como está se vuelve un instrumento en la mano", "当前的黏土成为手中的器械";
         size: "Size", "Größe", "Tamaño", "大小";
         size_hint: "Half the length of the tool; [ and ], or F held and the pointer or the wheel", "Halbe Länge des Werkzeugs; [ und ] oder F halten und Zeiger oder Rad bewegen", "Mitad de la longitud del instrumento; [ y ], o F pulsada y el puntero o la rueda", "器械长度的一半；[ 和 ]，或按住 F 移动指针或滚动滚轮";
         coat: "Coating", "Mantel", "Recubrimiento", "影响层";

@@ -34,7 +34,7 @@ impl DistanceGrid {
     pub const CELL: f64 = (1.0 + 2.0 * MARGIN) / (NODES - 1) as f64;
 
     /// A grid of parts that were [`DistanceGrid::nodes`] and [`DistanceGrid::values`]; `None` if they do not fit.
-    pub(super) fn from_parts(nodes: UVec3, values: Vec<f32>, is_open: bool) -> Option<Self> {
+    pub fn from_parts(nodes: UVec3, values: Vec<f32>, is_open: bool) -> Option<Self> {
         let fits = nodes.min_element() >= 2
             && nodes.max_element() <= NODES
             && values.len() == nodes.element_product() as usize

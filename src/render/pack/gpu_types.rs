@@ -232,7 +232,7 @@ impl Laid {
         laid
     }
 
-    /// The grids.
+    /// The grids in the order in which they lie.
     pub(crate) fn grids(&self) -> impl Iterator<Item = &DistanceGrid> {
         self.0.iter().map(|(_, grid)| &**grid)
     }

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, Vec2};
+use glam::{DVec2, UVec3, Vec2};
 use js_sys::{
     Array, ArrayBuffer, Float32Array, Float64Array, Int16Array, Uint8Array, Uint16Array,
     Uint32Array,
@@ -13,8 +13,8 @@ use wasm_bindgen::prelude::*;
 
 use super::header::{json_of, volume_of};
 use crate::data::{
-    Plate, PlateOrigin, PlateShape, PlateWord, SheetMesh, SubjectPart, Surface, SurfaceArrays,
-    Voxels,
+    DistanceGrid, Plate, PlateOrigin, PlateShape, PlateWord, SheetMesh, SubjectPart, Surface,
+    SurfaceArrays, Voxels,
 };
 use crate::pictures::Picture;
 
@@ -276,6 +276,35 @@ pub fn packed_surface(surface: &Surface) -> [JsValue; SURFACE_ARRAYS] {
         indices(&arrays.grid_sides),
         floats(&arrays.grid_values),
     ]
+}
+
+/// Grids of tools, each an array of its key, its sides with 1 behind them if it is open, and its nodes.
+pub fn packed_grids(grids: &[(String, Arc<DistanceGrid>)]) -> Array {
+    let packed = grids.iter().map(|(key, grid)| {
+        let [x, y, z] = grid.nodes().to_array();
+        let sides = [x, y, z, grid.is_open().into()];
+        let values = Float32Array::from(grid.values());
+        Array::of3(&key.into(), &Uint32Array::from(&sides[..]), &values)
+    });
+    packed.collect()
+}
+
+/// The grids of [`packed_grids`]; those that are none are left out.
+pub fn unpacked_grids(held: &JsValue) -> Vec<(String, Arc<DistanceGrid>)> {
+    let grid_of = |packed: JsValue| {
+        let packed: Array = packed.dyn_into().ok()?;
+        let sides = packed.get(1).dyn_ref::<Uint32Array>()?.to_vec();
+        let values = packed.get(2).dyn_ref::<Float32Array>()?.to_vec();
+        let [x, y, z, is_open] = sides[..] else {
+            return None;
+        };
+        let grid = DistanceGrid::from_parts(UVec3::new(x, y, z), values, is_open != 0)?;
+        Some((packed.get(0).as_string()?, Arc::new(grid)))
+    };
+    let list = held.dyn_ref::<Array>().into_iter();
+    list.flat_map(|list| list.iter())
+        .filter_map(grid_of)
+        .collect()
 }
 
 fn json(text: &JsValue) -> Option<Value> {
