@@ -9,5 +9,5 @@
 /// Grids of all objects that carve, one node behind the other (data/surface/carver.rs): in the upper 20 bits the
 /// distance, in the lower 12 how far tissue may be pushed.
 @group(2) @binding(13) var carvers: texture_2d<u32>;
-/// Steps of all sweeps, one behind the other (displace/sweep.wgsl).
+/// Grids of tools (displace/tools.wgsl), then the steps of all sweeps, one behind the other (displace/sweep.wgsl).
 @group(2) @binding(15) var sweeps: texture_2d<f32>;

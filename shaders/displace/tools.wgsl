@@ -1,5 +1,5 @@
 // Tools: the shapes of which a sweep's tools are made, and the field about them. Each in its own frame, in subject
-// units; the points of curves lie in the texture of sweeps.
+// units; the points of curves and the grids of meshes lie in the texture of sweeps.
 // Source: Angelidis, Wyvill and Cani, Sweepers, section 3.1; spec/sweepers.md, A.1 and A.4.
 //
 //   ball      ellipsoid     capsule    box       torus      curve      1 +--.
@@ -16,6 +16,12 @@
 const SWEEP_ROW: u32 = 1024u;
 /// The number of the shape that is a curve.
 const CURVE_SHAPE: u32 = 5u;
+/// The number of the shape that is a mesh.
+const MESH_SHAPE: u32 = 6u;
+/// Side of a cell of a grid, as a part of the longest side of its mesh.
+const GRID_CELL: f32 = 1.5 / 47.0;
+/// Bits of the nodes of a grid along one axis.
+const NODE_BITS: u32 = 6u;
 /// Pieces of a curve that are asked at once.
 const CURVE_PIECES: u32 = 4u;
 
@@ -77,6 +83,25 @@ fn pieces_distance(q: vec3f, from_point: u32, last: u32) -> f32 {
     return min(first_two, min(piece_distance(q, c, d), piece_distance(q, d, e)));
 }
 
+/// Distance to a mesh by its grid, linear between nodes; beyond the grid the way to it is added. `form`: the first
+/// texel, the nodes along the axes, the longest side of the mesh. A texel holds the values of a node, of the next along
+/// x, along y and along both.
+fn grid_distance(p: vec3f, form: vec4f) -> f32 {
+    let sides = vec3u(u32(form.y)) >> vec3u(0u, NODE_BITS, 2u * NODE_BITS);
+    let nodes = sides & vec3u((1u << NODE_BITS) - 1u);
+    let last = vec3f(nodes - 1u);
+    let cell = GRID_CELL * form.z;
+    let at = p / cell + 0.5 * last;
+    let near = clamp(at, vec3f(0.0), last);
+    let low = min(vec3u(near), nodes - 2u);
+    let part = near - vec3f(low);
+    let slice = (nodes.x - 1u) * (nodes.y - 1u);
+    let first = u32(form.x) + low.x + (nodes.x - 1u) * low.y + slice * low.z;
+    let four = mix(sweep_texel(first), sweep_texel(first + slice), part.z);
+    let two = mix(four.xy, four.zw, part.y);
+    return mix(two.x, two.y, part.x) * form.z + length(at - near) * cell;
+}
+
 /// Distance to a tool that is no curve, 0 inside. `shape` and `form` as src/displace/sweeping.rs packs them.
 fn tool_distance(p: vec3f, shape: u32, form: vec4f) -> f32 {
     let q = abs(p);
@@ -92,6 +117,9 @@ fn tool_distance(p: vec3f, shape: u32, form: vec4f) -> f32 {
         }
         case 4u: {
             return max(length(vec2f(length(q.xy) - form.y, q.z)) - form.x, 0.0);
+        }
+        case MESH_SHAPE: {
+            return grid_distance(p, form);
         }
         default: {
             return max(length(q) - form.x, 0.0);

@@ -9,7 +9,7 @@ use crate::app::window::App;
 use crate::app::words::{self, fill};
 use crate::assets::{Data, LoadEvent, Role, SegmentationsExpected, Want};
 use crate::data::{Subject, SubjectBuilder, SubjectSink as _};
-use crate::document::SegmentsRef;
+use crate::document::{SegmentsRef, SubjectRef};
 
 impl App {
     pub(crate) fn take_messages(&mut self) {
@@ -273,6 +273,14 @@ impl App {
         if !is_here {
             return;
         }
+        if let SubjectRef::Clay(clay) = self.session.shown().subject_shown()
+            && !self.session.awaits_clay()
+            && self.assets.has_new_tools(&clay)
+        {
+            // The clay is shaped again, with the tools that have come.
+            self.session.ask_for_subject_again();
+            return;
+        }
         let mut missing = self.assets.missing(self.session.shown());
         if let Some(want) = missing.iter().find(|want| self.can_be_fetched(want)) {
             let want = want.clone();
@@ -295,7 +303,7 @@ impl App {
         let is_known = match want.role {
             Role::Segments => want.src().is_some(),
             // One that only the reader has is asked for once, so that the reader is told.
-            Role::Object | Role::Mesh => true,
+            Role::Object | Role::Mesh | Role::Tool => true,
             Role::Subject | Role::Field => false,
         };
         is_known && !self.assets.is_refused(want)
@@ -339,12 +347,13 @@ impl App {
             return false;
         };
         match &load.of {
-            LoadOf::Beside(want) if matches!(want.role, Role::Object | Role::Mesh) => {
+            LoadOf::Beside(want) if matches!(want.role, Role::Object | Role::Mesh | Role::Tool) => {
                 let whole = std::mem::take(&mut self.incoming).finish();
                 let Some(Ok((Subject::Mesh(mesh), _))) = whole else {
                     self.assets.refuse(want);
                     let text = match want.role {
                         Role::Mesh => words::messages::w().no_mesh,
+                        Role::Tool => words::messages::w().no_tool,
                         _ => words::messages::w().no_object,
                     };
                     self.session.notify(Gravity::Error, text, "");
@@ -360,7 +369,8 @@ impl App {
                 let shown = self.session.shown();
                 let missing = self.assets.missing(shown);
                 let waits = |want: &&Want| {
-                    want.role == Role::Object && want.sha256().is_some() && want.sha256() == sha256
+                    let is_one = matches!(want.role, Role::Object | Role::Tool);
+                    is_one && want.sha256().is_some() && want.sha256() == sha256
                 };
                 let mut beside = shown.meshes_beside.iter();
                 let is_beside =

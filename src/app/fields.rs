@@ -28,7 +28,9 @@ impl App {
         resources.sheet = self.bent();
         for news in news {
             match news {
-                ResourceNews::NoSegment { .. } | ResourceNews::TooThin { .. } => {
+                ResourceNews::NoSegment { .. }
+                | ResourceNews::TooThin { .. }
+                | ResourceNews::ToolIsSheet { .. } => {
                     self.session.notify(Gravity::Warning, news.to_string(), "");
                 }
                 ResourceNews::MeshesKept => {
@@ -63,6 +65,7 @@ impl App {
             self.session.view.object_frames = frames.collect();
             self.session.revision += 1;
         }
+        self.session.view.grids.clone_from(&resources.grids);
         if let Some(picture) = &mut self.picture {
             picture.set_resources(resources.clone());
         }

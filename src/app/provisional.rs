@@ -49,6 +49,7 @@ impl App {
             return Some(match want.role {
                 Role::Object => w.object_coming,
                 Role::Mesh => w.mesh_coming,
+                Role::Tool => w.tool_coming,
                 _ => w.segments_coming,
             });
         }

@@ -343,7 +343,9 @@ impl App {
         for effect in effects {
             match effect {
                 Effect::LoadSubject(subject) => {
-                    let ticket = services.load(&Want::subject(&subject));
+                    let want = self.assets.subject_want(&subject);
+                    self.assets.asked_for(&want);
+                    let ticket = services.load(&want);
                     self.session.load_started(ticket);
                 }
                 Effect::CancelLoad(ticket) => services.cancel_load(ticket),

@@ -30,4 +30,4 @@ pub use events::{LoadEvent, RawQuestion, SegmentationsExpected};
 pub use news::ResourceNews;
 pub use store::{Assets, Data};
 pub use tissue_work::TissueWork;
-pub use want::{OtherFile, Role, Source, Want, Wanted};
+pub use want::{OtherFile, Role, Source, Want, Wanted, tool_files};

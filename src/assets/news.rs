@@ -29,6 +29,13 @@ pub enum ResourceNews {
         /// What the object is called.
         object: String,
     },
+    /// A mesh that a tool is made of has no inside.
+    ToolIsSheet {
+        /// JSON pointer of the tool.
+        pointer: String,
+        /// What the file is called.
+        name: String,
+    },
     /// A field cannot be used with this subject.
     FieldRefused {
         /// Index of the template in the document.
@@ -56,6 +63,10 @@ impl fmt::Display for ResourceNews {
             Self::TooThin { template, object } => write!(
                 f,
                 "/templates/{template}: “{object}” is too thin everywhere to carve: thinner than a cell of 1/128 of its longest side or less"
+            ),
+            Self::ToolIsSheet { pointer, name } => write!(
+                f,
+                "{pointer}: “{name}” is open and has no inside: as a tool it is a sheet"
             ),
             Self::FieldRefused { template, why } => write!(f, "/templates/{template}: {why}"),
         }

@@ -4,11 +4,14 @@ use glam::DVec3;
 
 use super::naming::rename;
 use super::news::ResourceNews;
-use super::want::{OtherFile, Role, Source, Want, Wanted};
+use super::want::{OtherFile, Role, Source, Want, Wanted, tool_files};
 use crate::data::{
-    FieldKey, FieldSamples, Grid, ObjectMeshes, Resources, Segment, Segmentation, Subject, Surface,
+    DistanceGrid, FieldKey, FieldSamples, Grid, Grids, ObjectMeshes, Resources, Segment,
+    Segmentation, Subject, Surface,
 };
-use crate::document::{Clay, Illustration, SegmentsRef, SubjectBox, SubjectRef, TemplateData};
+use crate::document::{
+    Clay, Illustration, SegmentsRef, SubjectBox, SubjectRef, TemplateData, ToolFile,
+};
 use crate::load::{FieldFile, FieldUse, LabelFile};
 
 /// What a file turned out to hold.
@@ -46,6 +49,9 @@ impl Data {
     }
 }
 
+/// Grids of tools that are meshes, by the keys of their files.
+type Meshes = Vec<(String, Arc<DistanceGrid>)>;
+
 /// A file that has arrived; found again by the hash of its bytes or by the address that it was fetched from.
 #[derive(Clone, Debug)]
 struct Held<T> {
@@ -72,7 +78,10 @@ pub struct Assets {
     grid: Option<Grid>,
     segments: Vec<Held<LabelFile>>,
     fields: Vec<Held<FieldFile>>,
-    /// Meshes of objects and those beside the subject, each with the want that it met.
+    /// The grids with which the clay was made, and those with which it was last asked for.
+    clay_meshes: Meshes,
+    asked_meshes: Meshes,
+    /// Meshes of objects, of tools and those beside the subject, each with the want that it met.
     meshes: Vec<(Want, Arc<Surface>)>,
     /// It was told that the meshes beside the present subject are not drawn.
     has_told_kept: bool,
@@ -88,6 +97,17 @@ pub struct Assets {
     fitted: Vec<(FieldKey, Option<FieldSamples>)>,
     /// Templates and objects of which it was told that they are too thin.
     thin: Vec<(usize, String)>,
+    /// Keys of files of tools of which it was told that they have no inside.
+    sheets: Vec<String>,
+}
+
+/// True if both share their grids in memory.
+fn are_same(a: &Meshes, b: &Meshes) -> bool {
+    let pairs = a.iter().zip(b);
+    a.len() == b.len()
+        && pairs
+            .into_iter()
+            .all(|((key, grid), (other, theirs))| key == other && Arc::ptr_eq(grid, theirs))
 }
 
 impl Assets {
@@ -129,6 +149,7 @@ impl Assets {
         }
         if want.role == Role::Subject {
             self.clay = want.clay().cloned();
+            self.clay_meshes.clone_from(&want.meshes);
         }
         Ok(())
     }
@@ -143,6 +164,50 @@ impl Assets {
     pub fn give_subject(&mut self, data: Data, clay: Option<Arc<Clay>>) {
         self.hold(None, data);
         self.clay = clay;
+        self.clay_meshes.clone_from(&self.asked_meshes);
+    }
+
+    /// What is to be asked for to have a subject: of a clay with the grids of its tools that are there.
+    pub fn subject_want(&self, subject: &SubjectRef) -> Want {
+        self.with_meshes(Want::subject(subject))
+    }
+
+    /// This is asked for now. A subject that comes next is made with its grids.
+    pub fn asked_for(&mut self, want: &Want) {
+        if want.role == Role::Subject {
+            self.asked_meshes.clone_from(&want.meshes);
+        }
+    }
+
+    /// True if meshes have come since a clay was last asked for that its tools are made of.
+    pub fn has_new_tools(&self, clay: &Clay) -> bool {
+        !are_same(&self.meshes_of(clay), &self.asked_meshes)
+    }
+
+    fn with_meshes(&self, want: Want) -> Want {
+        let meshes = want.clay().map(|clay| self.meshes_of(clay));
+        Want {
+            meshes: meshes.unwrap_or_default(),
+            ..want
+        }
+    }
+
+    /// The grids of a clay's tools that are there, each once.
+    fn meshes_of(&self, clay: &Clay) -> Meshes {
+        self.grids_of(clay.tool_files())
+    }
+
+    fn grids_of<'a>(&self, files: impl Iterator<Item = &'a ToolFile>) -> Meshes {
+        let mut meshes = Meshes::new();
+        for file in files {
+            if let (Some(key), Some(want)) = (file.key(), Want::tool(file))
+                && meshes.iter().all(|(known, _)| known != key)
+                && let Some((_, grid)) = self.mesh(&want).and_then(|mesh| mesh.grids.first())
+            {
+                meshes.push((key.to_owned(), Arc::clone(grid)));
+            }
+        }
+        meshes
     }
 
     /// Takes a label volume that goes with the subject although no document names it.
@@ -227,14 +292,19 @@ impl Assets {
     /// True if the file of this want has arrived. Only one subject is held at a time.
     pub fn has(&self, want: &Want) -> bool {
         match want.role {
-            Role::Subject => self.subject.is_some() && self.clay.as_ref() == want.clay(),
+            Role::Subject => {
+                let is_made = |clay: &Arc<Clay>| are_same(&self.meshes_of(clay), &self.clay_meshes);
+                self.subject.is_some()
+                    && self.clay.as_ref() == want.clay()
+                    && self.clay.as_ref().is_none_or(is_made)
+            }
             Role::Segments => find(&self.segments, want).is_some(),
             Role::Field => find(&self.fields, want).is_some(),
             Role::Object => {
                 let is_enough = |mesh: &Arc<Surface>| mesh.carver.is_some() || !want.reading.carves;
                 self.mesh(want).is_some_and(is_enough)
             }
-            Role::Mesh => self.mesh(want).is_some(),
+            Role::Mesh | Role::Tool => self.mesh(want).is_some(),
         }
     }
 
@@ -248,6 +318,7 @@ impl Assets {
         let mut wants = Wanted::of(illustration).0;
         // Those beside the subject are read in one, once it is known where they lie.
         wants.retain(|want| want.role != Role::Mesh && !self.has(want));
+        let mut wants: Vec<Want> = wants.into_iter().map(|w| self.with_meshes(w)).collect();
         let beside = self.meshes_wanted(illustration);
         wants.extend(beside.filter(|want| !self.has(want)));
         wants
@@ -326,6 +397,7 @@ impl Assets {
             frame: self.subject.as_ref().map(Subject::frame),
             sheet: None,
             clay: self.clay.clone(),
+            grids: self.grids(illustration, &mut news),
         };
         self.tell_of_thin(illustration, &resources, &mut news);
         (resources, news)
@@ -354,6 +426,33 @@ impl Assets {
                 self.thin.push(told);
             }
         }
+    }
+
+    /// The grids of tools that are here. Tells once of each that is a sheet.
+    fn grids(&mut self, illustration: &Illustration, news: &mut Vec<ResourceNews>) -> Grids {
+        let files = tool_files(illustration);
+        let grids = Grids {
+            files: self.grids_of(files.iter().map(|(_, file)| *file)),
+            baked: self.subject.as_ref().map_or_else(Vec::new, Subject::baked),
+        };
+        for (key, _) in grids.files.iter().filter(|(_, grid)| grid.is_open()) {
+            if !self.sheets.contains(key) {
+                self.sheets.push(key.clone());
+                let mut files = files.iter();
+                let Some((pointer, file)) = files.find(|(_, file)| file.key() == Some(key)) else {
+                    continue;
+                };
+                let name = match file.name.as_str() {
+                    "" => key,
+                    name => name,
+                };
+                news.push(ResourceNews::ToolIsSheet {
+                    pointer: pointer.clone(),
+                    name: name.to_owned(),
+                });
+            }
+        }
+        grids
     }
 
     /// The meshes of objects that are here, each once.
@@ -527,7 +626,10 @@ fn number_of_own(segment: &Segment) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::{SubjectPart, SubjectSink as _, Volume, VolumeBuilder, Voxels};
+    use crate::data::mesh::testing::cube;
+    use crate::data::{
+        Mesh, MeshPart, SubjectPart, SubjectSink as _, Surface, Volume, VolumeBuilder, Voxels,
+    };
     use crate::document::Document;
     use glam::{DAffine3, UVec3};
 
@@ -607,5 +709,84 @@ mod tests {
         // A subject that comes anew is named anew.
         assets.give(data());
         assert_eq!(assets.resources(illustration).1.len(), 1);
+    }
+
+    /// A cube, or one without its lid, as a tool.
+    fn tool(is_open: bool) -> Arc<Surface> {
+        let (positions, mut triangles) = cube();
+        if is_open {
+            triangles.truncate(10);
+        }
+        let parts = vec![MeshPart {
+            name: "cube".to_owned(),
+            triangles: 0..triangles.len(),
+        }];
+        let mesh = Mesh {
+            positions,
+            triangles,
+            parts,
+            ..Mesh::default()
+        };
+        let surface = Surface::new(&mesh, None, &mut |_| true).expect("it has a size");
+        Arc::new(surface.sweeping(&mut |_| true).expect("not stopped"))
+    }
+
+    #[test]
+    fn a_clay_is_asked_for_again_when_its_tools_have_come() {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "tools": [{ "shape": "mesh", "src": "a.stl" }] } },
+            "templates": [{ "kind": "sweep", "params": { "tools": [{ "shape": "mesh", "src": "b.stl", "name": "lid" }] } }] }"#;
+        let document = Document::from_json(text).expect("a document");
+        let illustration = document.illustration();
+        let SubjectRef::Clay(clay) = &illustration.subject else {
+            panic!("a clay")
+        };
+        let mut assets = Assets::default();
+        let roles = |assets: &Assets| -> Vec<Role> {
+            let missing = assets.missing(illustration).into_iter();
+            missing.map(|want| want.role).collect()
+        };
+        let shaped = |assets: &mut Assets| {
+            let want = assets.subject_want(&illustration.subject);
+            assets.asked_for(&want);
+            let data = Data::Subject {
+                subject: Subject::Mesh(tool(false)),
+                sha256: None,
+            };
+            assets.give_subject(data, Some(Arc::clone(clay)));
+            want.meshes.len()
+        };
+        assert_eq!(shaped(&mut assets), 0);
+        assert!(!assets.has_new_tools(clay));
+        assert_eq!(roles(&assets), [Role::Tool, Role::Tool]);
+        let take = |assets: &mut Assets, is_open: bool| {
+            let mut missing = assets.missing(illustration).into_iter();
+            let want = missing.find(|want| want.role == Role::Tool).expect("one");
+            let data = Data::Object {
+                mesh: tool(is_open),
+                sha256: None,
+            };
+            assets.take(&want, data).expect("no hash is given");
+        };
+        take(&mut assets, false);
+        assert!(assets.has_new_tools(clay));
+        assert_eq!(roles(&assets), [Role::Subject, Role::Tool]);
+        assert_eq!(shaped(&mut assets), 1);
+        assert!(!assets.has_new_tools(clay));
+        // The tool of a template is none of the clay's. That it is a sheet is told once.
+        take(&mut assets, true);
+        assert!(!assets.has_new_tools(clay) && roles(&assets).is_empty());
+        let (resources, news) = assets.resources(illustration);
+        let keys: Vec<&str> = resources
+            .grids
+            .files
+            .iter()
+            .map(|(key, _)| &**key)
+            .collect();
+        assert_eq!(keys, ["a.stl", "b.stl"]);
+        let lines: Vec<String> = news.iter().map(ToString::to_string).collect();
+        let told =
+            "/templates/0/params/tools/0: “lid” is open and has no inside: as a tool it is a sheet";
+        assert_eq!(lines, [told]);
+        assert_eq!(assets.resources(illustration), (resources, Vec::new()));
     }
 }

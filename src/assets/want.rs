@@ -1,8 +1,9 @@
 use std::sync::Arc;
 
+use crate::data::DistanceGrid;
 use crate::document::{
-    Clay, FieldRef, Illustration, MeshReading, MeshRef, ObjectSource, Reading, SceneObject,
-    SegmentsRef, SubjectBox, SubjectRef, TemplateData,
+    Clay, FieldRef, Illustration, MeshAxes, MeshReading, MeshRef, ObjectSource, Reading,
+    SceneObject, SegmentsRef, SubjectBox, SubjectRef, TemplateData, ToolFile,
 };
 use crate::load::MeshOptions;
 
@@ -19,6 +20,8 @@ pub enum Role {
     Mesh,
     /// An object of the scene.
     Object,
+    /// The mesh of a tool, of a template or of a clay.
+    Tool,
 }
 
 /// Where the data for a want come from.
@@ -49,6 +52,8 @@ pub struct Want {
     /// Which volume of the file is meant, how bare voxels lie, and how a mesh is read; the default for label volumes
     /// and fields.
     pub reading: Reading,
+    /// Of a clay the grids of its tools that are meshes, as far as they are there.
+    pub meshes: Vec<(String, Arc<DistanceGrid>)>,
 }
 
 /// The hash of an arrived file is not the one in the document.
@@ -98,6 +103,7 @@ impl Want {
             role: Role::Subject,
             source,
             reading,
+            meshes: Vec::new(),
         }
     }
 
@@ -121,6 +127,26 @@ impl Want {
             src, sha256, name, ..
         } = mesh;
         Self::file(Role::Mesh, src, sha256, name, mesh.reading)
+    }
+
+    /// The mesh of a tool, with the axes that its file has; `None` where the tool names no file, or is left out.
+    pub fn tool(tool: &ToolFile) -> Option<Self> {
+        tool.key()?;
+        let ToolFile {
+            src, sha256, name, ..
+        } = tool;
+        let mesh = MeshReading {
+            axes: Some(MeshAxes::Ras),
+            ..MeshReading::default()
+        };
+        let want = Self::file(Role::Tool, src, sha256, name, mesh)?;
+        Some(Self {
+            reading: Reading {
+                sweeps: true,
+                ..want.reading
+            },
+            ..want
+        })
     }
 
     /// All meshes beside a volume, in one: they are read together, off the picture's thread. The first of them is the
@@ -151,6 +177,7 @@ impl Want {
                 role: Role::Object,
                 source: Source::Builtin((*name).to_owned()),
                 reading: Reading::default(),
+                meshes: Vec::new(),
             },
             ObjectSource::File {
                 src,
@@ -185,6 +212,7 @@ impl Want {
                 mesh,
                 ..Reading::default()
             },
+            meshes: Vec::new(),
         })
     }
 
@@ -272,8 +300,8 @@ impl Want {
 }
 
 /// Everything that an illustration needs from outside: its subject first, then label volumes, then fields of templates
-/// that act, then further meshes of the subject and objects. A file that is meant twice and read in one way is wanted
-/// once in each role.
+/// that act, then further meshes of the subject, objects and meshes of tools. A file that is meant twice and read in one
+/// way is wanted once in each role.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wanted(pub Vec<Want>);
 
@@ -293,7 +321,9 @@ impl Wanted {
         let meshes = illustration.meshes_beside.iter();
         let objects = illustration.objects.iter().filter(|o| o.enabled);
         let object = |object| Want::object(object, illustration);
+        let tools = tool_files(illustration);
         let further = meshes.map(Want::mesh).chain(objects.map(object));
+        let further = further.chain(tools.into_iter().map(|(_, file)| Want::tool(file)));
         for want in further.flatten() {
             if !wants.contains(&want) {
                 wants.push(want);
@@ -303,11 +333,33 @@ impl Wanted {
     }
 }
 
+/// The files of the tools that act, of a clay and of templates, each with the pointer of its tool.
+pub fn tool_files(illustration: &Illustration) -> Vec<(String, &ToolFile)> {
+    let mut files = Vec::new();
+    if let SubjectRef::Clay(clay) = &illustration.subject {
+        let tools = clay.tools.iter().enumerate();
+        files.extend(tools.filter_map(|(i, tool)| {
+            let file = tool.shape.as_ref()?.file()?;
+            Some((format!("/subject/clay/tools/{i}"), file))
+        }));
+    }
+    for template in illustration.templates.iter().filter(|t| t.enabled) {
+        if let TemplateData::Tools(tools) = &template.data {
+            files.extend(tools.acting().filter_map(|tool| {
+                let file = tool.shape.as_ref()?.file()?;
+                let at = format!("/templates/{}/params/tools/{}", template.index, tool.index);
+                Some((at, file))
+            }));
+        }
+    }
+    files
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::document::Document;
-    use crate::load::{PartsMode, Units};
+    use crate::load::{Axes, PartsMode, Units};
 
     fn wanted(json: &str) -> Vec<Want> {
         let document = Document::from_json(json).expect("a document");
@@ -344,6 +396,28 @@ mod tests {
             panic!("a file");
         };
         assert_eq!(name, "plate", "by this name the reader is asked for it");
+    }
+
+    #[test]
+    fn meshes_of_tools_are_wanted_once() {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "tools": [
+            { "shape": "mesh", "src": "a.stl" }, { "shape": "mesh" }, {}] } }, "templates": [
+            { "kind": "sweep", "params": { "tools": [{ "shape": "mesh", "src": "a.stl", "longest": 1 },
+                { "shape": "mesh", "sha256": "HASH", "name": "tooth" }] } },
+            { "kind": "sweep", "enabled": false, "params": { "tools": [{ "shape": "mesh", "src": "off.stl" }] } }] }"#;
+        let wants = wanted(&text.replace("HASH", &"0a".repeat(32)));
+        let roles: Vec<(Role, &str)> = wants.iter().map(|want| (want.role, want.name())).collect();
+        assert_eq!(
+            roles,
+            [
+                (Role::Subject, "clay"),
+                (Role::Tool, ""),
+                (Role::Tool, "tooth")
+            ]
+        );
+        assert!(wants[1].reading.sweeps && wants[2].is_supplied());
+        // Neither the unit nor the axes of its format matter.
+        assert_eq!(wants[1].mesh_options(7).axes, Some(Axes::Ras));
     }
 
     #[test]

@@ -12,6 +12,7 @@ use super::motion::{Motion, Step, is_in};
 use super::refine::Work;
 use super::shaping::Shaping;
 use super::space::Space;
+use crate::data::Grids;
 use crate::data::{Limited, median};
 use crate::displace::ToolShape;
 use crate::document::{Clay, ClayKey, ClayMove, ClayStroke, ClayTool};
@@ -255,7 +256,7 @@ impl Drag {
     /// Seconds that it takes to evaluate the field at a vertex and to write it back, in the same steps of the sheet at
     /// rest.
     fn field(&self, clock: fn() -> f64) -> Result<f64, ClayError> {
-        let Some(motion) = motion_of(&self.clay, &self.clay.strokes[0]) else {
+        let Some(motion) = motion_of(&self.clay, (0, &self.clay.strokes[0])) else {
             return Err(ClayError::UnknownStart("stroke".to_owned()));
         };
         let positions = self.start.shaped().positions;
@@ -282,11 +283,12 @@ impl Drag {
 }
 
 /// The tools of a stroke that moves; none if it is off, smooths, or is left out.
-fn motion_of<'a>(clay: &'a Clay, stroke: &ClayStroke) -> Option<Motion<'a>> {
+fn motion_of<'a>(clay: &'a Clay, of: (usize, &ClayStroke)) -> Option<Motion<'a>> {
+    let (_, stroke) = of;
     if stroke.is_off || stroke.smooth.is_some() {
         return None;
     }
-    let motion = Motion::new(clay, stroke).ok()?;
+    let motion = Motion::new(clay, of, &Grids::default()).ok()?;
     motion.times().is_ok().then_some(motion)
 }
 
@@ -304,7 +306,8 @@ impl Recipe {
             strokes: random_strokes(),
             ..Clay::default()
         };
-        let moving = clay.strokes.iter().filter_map(|s| motion_of(&clay, s));
+        let moving = clay.strokes.iter().enumerate();
+        let moving = moving.filter_map(|of| motion_of(&clay, of));
         Ok(Self {
             fewest: moving.map(|motion| motion.fewest()).sum(),
             start: Shaping::new(&clay)?,

@@ -1,8 +1,12 @@
 //! The shapes of tools in 64 bits, for the clay (spec/sweepers.md, A.1 and A.4). The picture of a `sweep` has the same
 //! shapes in shaders/displace/tools.wgsl; a test holds them together.
 
-use crate::displace::ToolShape;
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
+
+use crate::data::{DistanceGrid, Grids};
+use crate::displace::ToolShape;
 
 /// Steps of Newton to the nearest point of an ellipsoid: enough for all ranges in 64 bits.
 const ELLIPSOID_STEPS: usize = 40;
@@ -10,17 +14,42 @@ const ELLIPSOID_STEPS: usize = 40;
 /// A tool's form in its own frame, subject units.
 #[derive(Clone, Debug)]
 pub(super) enum Form {
-    Ball { radius: f64 },
-    Ellipsoid { radii: DVec3 },
-    Capsule { radius: f64, half: f64 },
-    Box { core: DVec3, round: f64 },
-    Torus { ring: f64, radius: f64 },
-    Curve { points: Vec<DVec3>, radius: f64 },
+    Ball {
+        radius: f64,
+    },
+    Ellipsoid {
+        radii: DVec3,
+    },
+    Capsule {
+        radius: f64,
+        half: f64,
+    },
+    Box {
+        core: DVec3,
+        round: f64,
+    },
+    Torus {
+        ring: f64,
+        radius: f64,
+    },
+    Curve {
+        points: Vec<DVec3>,
+        radius: f64,
+    },
+    Grid {
+        grid: Arc<DistanceGrid>,
+        longest: f64,
+    },
+    /// A mesh that is not there: it holds nothing.
+    Absent,
 }
+
+/// So far is everything from what is not there, subject units.
+const FAR: f64 = 1e6;
 
 impl Form {
     /// The form of a shape whose lengths are subject units.
-    pub(super) fn new(shape: &ToolShape) -> Self {
+    pub(super) fn new(shape: &ToolShape, grids: &Grids) -> Self {
         match shape {
             ToolShape::Ball { radius } => Self::Ball {
                 radius: f64::from(*radius),
@@ -47,10 +76,18 @@ impl Form {
                 points: points.iter().map(|point| point.as_dvec3()).collect(),
                 radius: f64::from(*radius),
             },
+            ToolShape::Mesh { .. } | ToolShape::Clay { .. } => match grids.of(shape) {
+                Some((grid, longest)) => Self::Grid {
+                    grid: Arc::clone(grid),
+                    longest: longest.into(),
+                },
+                None => Self::Absent,
+            },
         }
     }
 
-    /// Distance from the form, 0 inside, and its gradient: the direction away from the nearest point, 0 inside.
+    /// Distance from the form, 0 inside, and its gradient: the direction away from the nearest point, 0 inside. That of
+    /// a grid is a difference over a cell.
     pub(super) fn distance(&self, q: DVec3) -> (f64, DVec3) {
         match self {
             Self::Ball { radius } => beyond(q, *radius),
@@ -82,6 +119,11 @@ impl Form {
                 });
                 beyond(nearest.unwrap_or(q), *radius)
             }
+            Self::Grid { grid, longest } => {
+                let (distance, gradient) = grid.distance_and_gradient(q / *longest);
+                (distance * longest, gradient)
+            }
+            Self::Absent => (FAR, DVec3::ZERO),
         }
     }
 }
@@ -141,7 +183,7 @@ mod tests {
     fn forms() -> Vec<Form> {
         let names = ToolShape::NAMES.iter();
         let mut forms: Vec<Form> = names
-            .map(|name| Form::new(&ToolShape::named(name).unwrap()))
+            .map(|name| Form::new(&ToolShape::named(name).unwrap(), &Grids::default()))
             .collect();
         forms.push(Form::Ellipsoid {
             radii: DVec3::new(2.0, 0.005, 0.3),

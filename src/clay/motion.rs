@@ -5,6 +5,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::field::{Form, falloff};
 use super::mesh::Vertex;
+use crate::data::Grids;
 use crate::displace::{Ball, MOST_STEPS, Mover, asked_in, counted_in, images_of, spans, wanted_in};
 use crate::document::{Clay, ClayKey, ClayMove, ClayStroke};
 use crate::math::{Screw, Similarity, smooth_path};
@@ -23,6 +24,12 @@ pub enum LeftOut {
     /// It names a tool that is not there, or one of a shape that this version does not have.
     #[error("tool {0} is not there or of a shape that is not known")]
     NoTool(usize),
+    /// Its tool is made of it or of later strokes.
+    #[error("tool {0} is made of this stroke or of later ones")]
+    OfItself(usize),
+    /// The mesh of its tool is not there: nothing is held.
+    #[error("the mesh of tool {0} is not there")]
+    NoMesh(usize),
     /// Its way is too long for its coating.
     #[error("it takes {steps} steps, more than {MOST_STEPS}")]
     TooLong {
@@ -141,24 +148,38 @@ fn poses_of(way: &ClayMove) -> Vec<Similarity> {
 }
 
 impl<'a> Motion<'a> {
-    /// The tools of a stroke.
+    /// The tools of a stroke and its place in the list. A mesh that is not there holds nothing.
     ///
     /// # Errors
-    /// If one of them is not there.
-    pub(super) fn new(clay: &'a Clay, stroke: &ClayStroke) -> Result<Self, LeftOut> {
+    /// If one of them is not in the list of tools, or made of the stroke or of later ones.
+    pub(super) fn new(
+        clay: &'a Clay,
+        (index, stroke): (usize, &ClayStroke),
+        grids: &Grids,
+    ) -> Result<Self, LeftOut> {
         let movers = stroke.moves.iter().map(|way| {
             let tool = clay.tools.get(way.tool);
+            if tool.is_some_and(|tool| !tool.is_made_before(index)) {
+                return Err(LeftOut::OfItself(way.tool));
+            }
             let shape = tool.and_then(|tool| tool.shape.as_ref().map(|shape| (shape, tool.coat)));
             let (shape, coat) = shape.ok_or(LeftOut::NoTool(way.tool))?;
             Ok(Mover::new(shape, 1.0, coat, poses_of(way)))
         });
         let movers = movers.collect::<Result<Vec<_>, _>>()?;
+        let forms = movers.iter().map(|mover| Form::new(mover.shape, grids));
         Ok(Self {
-            forms: movers.iter().map(|mover| Form::new(mover.shape)).collect(),
+            forms: forms.collect(),
             images: images_of(stroke.mirror),
             mirrored: stroke.mirror,
             movers,
         })
+    }
+
+    /// The place among the tools of the stroke of one that is not there.
+    pub(super) fn absent(&self) -> Option<usize> {
+        let mut forms = self.forms.iter();
+        forms.position(|form| matches!(form, Form::Absent))
     }
 
     /// The times of all steps: in each no tool goes farther than an eighth of its coating.

@@ -2,6 +2,7 @@
 //! bit, on every machine: 64-bit floats, only what IEEE 754 rounds exactly and functions of `libm`, one fixed order.
 
 use std::collections::BinaryHeap;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -12,6 +13,8 @@ use super::refine::{Carry, MAX_TRIANGLES, Stepping, Work};
 use super::smooth;
 use super::space::Space;
 use super::start;
+use crate::data::{DistanceGrid, Grids};
+use crate::displace::ToolShape;
 use crate::document::{Clay, ClayStart};
 
 /// Steps whose reach is looked at together, and blocks of them.
@@ -42,6 +45,8 @@ pub struct Shaping {
     pub(super) start_notices: Vec<String>,
     done: usize,
     work: Work,
+    /// Those of tools that are meshes, and of itself after as many strokes as its baked tools are made of.
+    grids: Grids,
     /// No triangle has an edge longer than the detail; false where that is not known.
     is_fine: bool,
 }
@@ -113,8 +118,47 @@ impl Shaping {
             start_notices: Vec::new(),
             done: 0,
             work: Work::default(),
+            grids: Grids::default(),
             is_fine: false,
         }
+    }
+
+    /// This one with the grids of tools that are meshes.
+    #[must_use]
+    pub fn with_meshes(mut self, files: &[(String, Arc<DistanceGrid>)]) -> Self {
+        self.grids.files = files.to_vec();
+        self
+    }
+
+    /// The grids of its tools, as far as they are there.
+    pub fn grids(&self) -> &Grids {
+        &self.grids
+    }
+
+    /// True if a stroke that is still to come has a tool made of this clay as it stood earlier, and that was not kept.
+    pub fn lacks(&self, clay: &Clay) -> bool {
+        let done = self.done as u32;
+        let mut wanted = baked_for(clay, self.done);
+        wanted.any(|strokes| strokes < done && !self.has_baked(strokes))
+    }
+
+    fn has_baked(&self, strokes: u32) -> bool {
+        self.grids.baked.iter().any(|(known, _)| *known == strokes)
+    }
+
+    /// Keeps the clay as it stands as a grid of distances, if a tool of the strokes to come is made of it.
+    fn bake(&mut self, clay: &Clay, go_on: &mut dyn FnMut(f32) -> bool) -> Result<(), ClayError> {
+        let strokes = self.done as u32;
+        if self.has_baked(strokes) || baked_for(clay, self.done).all(|wanted| wanted != strokes) {
+            return Ok(());
+        }
+        let shaped = self.shaped();
+        let is_closed = self.mesh.border_count() == 0;
+        let (positions, triangles) = (&shaped.positions, &shaped.triangles);
+        let grid = DistanceGrid::of_mesh(positions, triangles, is_closed, &mut |_| go_on(0.0));
+        let grid = grid.ok_or(ClayError::Stopped)?;
+        self.grids.baked.push((strokes, Arc::new(grid)));
+        Ok(())
     }
 
     /// Looks after all edges until nothing changes, so that a stroke that only carries them leaves them alone.
@@ -177,8 +221,16 @@ impl Shaping {
             return Ok(());
         };
         self.touched.fill(false);
+        self.bake(clay, go_on)?;
         if !stroke.is_off {
-            let done = Motion::new(clay, stroke).and_then(|motion| match stroke.smooth {
+            let motion = Motion::new(clay, (index, stroke), &self.grids);
+            if let Ok(motion) = &motion
+                && let Some(place) = motion.absent()
+            {
+                let tool = stroke.moves.get(place).map_or(0, |one| one.tool);
+                self.left_out.push((index, LeftOut::NoMesh(tool)));
+            }
+            let done = motion.and_then(|motion| match stroke.smooth {
                 Some(strength) => Ok((motion.moments()?, motion, Some(strength))),
                 None => Ok((motion.times()?, motion, None)),
             });
@@ -450,7 +502,11 @@ impl Shaping {
     pub fn notices(&self) -> Vec<String> {
         let mut lines = self.start_notices.clone();
         for (index, why) in self.left_out.iter().take(MOST_NOTICES) {
-            lines.push(format!("stroke {} is left out: {why}", index + 1));
+            let number = index + 1;
+            lines.push(match why {
+                LeftOut::NoMesh(_) => format!("a tool of stroke {number} holds nothing: {why}"),
+                _ => format!("stroke {number} is left out: {why}"),
+            });
         }
         if let Some(more) = self.left_out.len().checked_sub(MOST_NOTICES + 1) {
             lines.push(format!("{} more strokes are left out", more + 1));
@@ -477,6 +533,22 @@ impl Shaping {
             space: self.space,
         }
     }
+}
+
+/// By how many strokes the tools are made that strokes from one on have, once for each that has one.
+fn baked_for(clay: &Clay, from: usize) -> impl Iterator<Item = u32> + '_ {
+    let strokes = clay
+        .strokes
+        .iter()
+        .skip(from)
+        .filter(|stroke| !stroke.is_off);
+    let tools = strokes
+        .flat_map(|stroke| &stroke.moves)
+        .filter_map(|one| clay.tools.get(one.tool));
+    tools.filter_map(|tool| match tool.shape {
+        Some(ToolShape::Clay { strokes, .. }) => Some(strokes),
+        _ => None,
+    })
 }
 
 /// A clay's mesh.

@@ -1,5 +1,7 @@
 //! What a clay promises (spec/sweepers.md, B.1), on the recipes of `suite.rs`.
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec3};
 
 use super::check::Check;
@@ -11,8 +13,9 @@ use super::suite::{ball, clay, key, place, stroke, suite};
 use super::way::Way;
 use super::{LeftOut, Space};
 use crate::data::mesh::testing::cube;
-use crate::displace::ToolShape;
-use crate::document::{Clay, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool};
+use crate::data::{DistanceGrid, Grids};
+use crate::displace::{ToolFile, ToolShape};
+use crate::document::{Clay, ClayKey, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool};
 
 /// Recipes whose measure by the way back says nothing: they stretch a thousandfold along the normal, so that the last
 /// bit of a place lies many triangles away in the starting shape.
@@ -140,7 +143,7 @@ fn the_mesh_stands_for_the_exact_sweep() {
             unreachable!("the suite begins with built-in shapes")
         };
         let shaped = shape(&clay).shaped();
-        let way = Way::of(&clay);
+        let way = Way::of(&clay, &Grids::default());
         let all = shaped.positions.iter().zip(&shaped.normals).step_by(3);
         let seen: Vec<_> = all.map(|(p, n)| (p.as_dvec3(), n.as_dvec3())).collect();
         let mut exact = seen.clone();
@@ -307,7 +310,7 @@ fn a_tool_pressed_into_one_huge_triangle_shapes_it() {
 #[test]
 fn the_way_back_is_the_inverse() {
     for (name, clay) in suite() {
-        let way = Way::of(&clay);
+        let way = Way::of(&clay, &Grids::default());
         let shaped = shape(&clay).shaped();
         let mut far = 0;
         let all = shaped.positions.iter().step_by(37);
@@ -476,4 +479,154 @@ fn sixty_strokes_give_the_same_bits() {
     assert_eq!((check.euler, check.border_edges), (2, 0));
     assert!(check.is_two_manifold());
     assert_eq!(check.sha256, SIXTY_STROKES, "{}", check.lines());
+}
+
+/// The clay itself after so many strokes, as a tool.
+fn baked(strokes: u32, longest: f32) -> ClayTool {
+    ClayTool {
+        shape: Some(ToolShape::Clay { strokes, longest }),
+        coat: 0.1,
+    }
+}
+
+/// A stroke of another tool than the first.
+fn by_tool(tool: usize, keys: &[ClayKey]) -> ClayStroke {
+    let mut stroke = stroke(keys);
+    stroke.moves[0].tool = tool;
+    stroke
+}
+
+/// A ball baked out of the clay presses as a ball does, within the cells of its grid.
+#[test]
+fn a_baked_ball_presses_as_a_ball() {
+    let way = [place([0, 100, 700]), place([0, 60, 480])];
+    let [made, exact] = [baked(0, 0.3), ball(0.15, 0.1)].map(|tool| {
+        let clay = with_strokes(clay(ClayShape::Ball, &[tool]), vec![stroke(&way)]);
+        let shaping = shape(&clay);
+        assert_eq!(shaping.left_out(), []);
+        let check = Check::of_clay(&shaping.shaped());
+        assert!(check.is_two_manifold(), "{}", check.lines());
+        assert_eq!((check.euler, check.pieces, check.border_edges), (2, 1, 0));
+        (clay, shaping)
+    });
+    let cell = 0.3 * DistanceGrid::CELL;
+    let [way_of, exactly] = [&made, &exact].map(|(clay, shaping)| Way::of(clay, shaping.grids()));
+    let mut moved = 0.0_f64;
+    for i in 0..200 {
+        let turn = f64::from(i) * 2.4;
+        let height = 1.0 - f64::from(i) / 200.0;
+        let out = (1.0 - height * height).sqrt();
+        let at = 0.5 * DVec3::new(out * turn.cos(), out * turn.sin(), height);
+        let [by_grid, by_ball] = [&way_of, &exactly].map(|way| way.forward_of(at));
+        // Where the tissue was taken along a way of two coatings, a distance that is a little off is off again.
+        assert!(by_grid.distance(by_ball) < 2.0 * cell, "{at}");
+        moved = moved.max(by_ball.distance(at));
+    }
+    assert!(moved > 0.1, "{moved}");
+}
+
+/// What is baked on the way is the same whenever it is baked, and captions go with it.
+#[test]
+fn a_clay_is_baked_after_its_strokes() {
+    let tools = [ball(0.12, 0.1), baked(1, 0.25)];
+    let strokes = vec![
+        stroke(&[place([0, 0, 450]), place([0, 0, 650])]),
+        by_tool(1, &[key([700, 0, 0], [0, 90, 0], 100), place([450, 0, 0])]),
+        by_tool(
+            1,
+            &[place([-700, 0, 0]), key([-450, 0, 0], [0, 0, 40], 120)],
+        ),
+    ];
+    let clay = with_strokes(clay(ClayShape::Ball, &tools), strokes);
+    let shaping = shape_each(&clay, &mut |shaping| assert!(!shaping.lacks(&clay)));
+    assert_eq!(shaping.left_out(), []);
+    let check = Check::of_clay(&shaping.shaped());
+    assert!(check.is_two_manifold(), "{}", check.lines());
+    assert_eq!((check.euler, check.border_edges), (2, 0));
+    let again = shape(&clay);
+    assert_eq!(Check::of_clay(&again.shaped()).sha256, check.sha256);
+    let [(after, grid)] = &shaping.grids().baked[..] else {
+        panic!("one tool was baked")
+    };
+    assert_eq!(*after, 1);
+    // Longer than wide: a ball with a nose.
+    let nodes = grid.nodes();
+    assert!(nodes.z == 48 && nodes.x < 46, "{nodes}");
+    let way = Way::of(&clay, shaping.grids());
+    let at = DVec3::new(0.5, 0.0, 0.0);
+    let there = way.forward_of(at);
+    assert!(there.x < 0.4, "{there}");
+    assert!(way.back_of(there).distance(at) < 1e-3);
+    assert_eq!(Way::of(&clay, &Grids::default()).forward_of(at), at);
+    // One that goes on from a state in which nothing was kept lacks it.
+    let plain = with_strokes(clay.clone(), clay.strokes[..1].to_vec());
+    let mut late = with_strokes(clay.clone(), clay.strokes[..1].to_vec());
+    late.strokes.push(stroke(&[place([0, 450, 0])]));
+    let two = shape(&late);
+    assert!(!shape(&plain).lacks(&clay) && two.lacks(&clay));
+}
+
+#[test]
+fn tools_of_later_strokes_and_of_no_file_hold_nothing_and_are_named() {
+    let mesh = ClayTool {
+        shape: ToolShape::named("mesh"),
+        coat: 0.1,
+    };
+    let tools = [baked(2, 0.3), baked(2000, 0.3), baked(1, 0.3), mesh];
+    let way = [place([0, 0, 600]), place([0, 0, 400])];
+    let strokes = (0..4).map(|tool| by_tool(tool, &way));
+    let clay = with_strokes(clay(ClayShape::Ball, &tools), strokes.collect());
+    let start = Shaping::new(&clay).unwrap().shaped();
+    let shaping = shape(&clay);
+    let wanted = [
+        (0, LeftOut::OfItself(0)),
+        (1, LeftOut::OfItself(1)),
+        (3, LeftOut::NoMesh(3)),
+    ];
+    assert_eq!(shaping.left_out(), wanted);
+    assert_ne!(shaping.shaped().positions, start.positions);
+    let said = shaping.notices().join("\n");
+    for part in [
+        "stroke 1 is left out: tool 0",
+        "a tool of stroke 4 holds nothing: the mesh of tool 3",
+    ] {
+        assert!(said.contains(part), "{part} in {said}");
+    }
+    // Without the one that is baked in time nothing moves.
+    let mut still = clay.clone();
+    still.strokes[2].is_off = true;
+    assert_eq!(shape(&still).shaped().positions, start.positions);
+}
+
+/// A file's grid is the tool that the file is.
+#[test]
+fn a_mesh_presses_where_its_grid_is_there() {
+    let (positions, triangles) = cube();
+    let grid = DistanceGrid::of_mesh(&positions, &triangles, true, &mut |_| true);
+    let grid = Arc::new(grid.expect("not stopped"));
+    let file = ToolFile {
+        src: Some("cube.stl".to_owned()),
+        ..ToolFile::default()
+    };
+    let tool = ClayTool {
+        shape: Some(ToolShape::Mesh { file, longest: 0.3 }),
+        coat: 0.1,
+    };
+    let way = [place([0, 0, 800]), place([0, 0, 580])];
+    let clay = with_strokes(clay(ClayShape::Ball, &[tool]), vec![stroke(&way)]);
+    let mut shaping = Shaping::new(&clay)
+        .unwrap()
+        .with_meshes(&[("cube.stl".to_owned(), grid)]);
+    shaping.stroke(&clay, &mut |_| true).unwrap();
+    assert_eq!(shaping.left_out(), []);
+    let check = Check::of_clay(&shaping.shaped());
+    assert!(
+        check.is_two_manifold() && check.euler == 2,
+        "{}",
+        check.lines()
+    );
+    // Its lower side is at 0.43.
+    let down = Way::of(&clay, shaping.grids()).forward_of(DVec3::new(0.0, 0.0, 0.5));
+    assert!(down.z < 0.44 && down.z > 0.3, "{down}");
+    assert_eq!(shape(&clay).left_out(), [(0, LeftOut::NoMesh(0))]);
 }

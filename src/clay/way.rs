@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::motion::{Motion, Step, around, is_in};
+use crate::data::Grids;
 use crate::displace::Ball;
 use crate::document::Clay;
 
@@ -21,12 +22,12 @@ struct Carried<'a> {
 }
 
 impl<'a> Way<'a> {
-    /// The map of all strokes.
-    pub fn of(clay: &'a Clay) -> Self {
-        let acting = clay.strokes.iter();
-        let acting = acting.filter(|stroke| !stroke.is_off && stroke.smooth.is_none());
+    /// The map of all strokes, with tools of these grids.
+    pub fn of(clay: &'a Clay, grids: &Grids) -> Self {
+        let acting = clay.strokes.iter().enumerate();
+        let acting = acting.filter(|(_, stroke)| !stroke.is_off && stroke.smooth.is_none());
         let carried = acting.filter_map(|stroke| {
-            let motion = Motion::new(clay, stroke).ok()?;
+            let motion = Motion::new(clay, stroke, grids).ok()?;
             motion.times().ok()?;
             Some(Carried {
                 reach: motion.reach(),

@@ -65,9 +65,9 @@ pub use statistics::{Histogram, Statistics};
 pub use subject::{FIRST_MESH_LABEL, Space, Subject, called_as_in, with_mesh_segments};
 pub use subject_builder::SubjectBuilder;
 pub use surface::{
-    CARVER_MARGIN, Carver, CarverLevel, FIELD_MARGIN, FIELD_VOXELS, MAX_SURFACE_SEGMENTS, Nearest,
-    PLAIN_SRGB, Surface, SurfaceArrays, SurfaceError, SurfaceField, SurfacePicture, SurfaceSegment,
-    SurfaceTextures, Tree, TreeNode, Triangle, times_inside,
+    CARVER_MARGIN, Carver, CarverLevel, DistanceGrid, FIELD_MARGIN, FIELD_VOXELS, Grids,
+    MAX_SURFACE_SEGMENTS, Nearest, PLAIN_SRGB, Surface, SurfaceArrays, SurfaceError, SurfaceField,
+    SurfacePicture, SurfaceSegment, SurfaceTextures, Tree, TreeNode, Triangle, times_inside,
 };
 pub use time_slices::TimeSlices;
 pub use volume::{Grid, Segment, Segmentation, Volume, Voxels};

@@ -3,7 +3,9 @@ use std::sync::Arc;
 
 use glam::{Quat, Vec3};
 
-use super::{Carver, FieldSamples, Segment, Segmentation, Sheet, Subject, SubjectFrame, Surface};
+use super::{
+    Carver, FieldSamples, Grids, Segment, Segmentation, Sheet, Subject, SubjectFrame, Surface,
+};
 use crate::displace::Holds;
 use crate::document::{
     Clay, FoundObject, ObjectSource, ParamValue, PlacedTemplate, SceneObject, TemplateData,
@@ -31,6 +33,8 @@ pub struct Resources {
     pub sheet: Option<Sheet>,
     /// The recipe of the subject that is here, if it is a clay: captions go with its strokes.
     pub clay: Option<Arc<Clay>>,
+    /// The grids that tools are made of, as far as they are here.
+    pub grids: Grids,
 }
 
 /// Meshes of objects, by where each comes from.
@@ -175,5 +179,6 @@ impl PartialEq for Resources {
             && self.frame == other.frame
             && Sheet::are_same(self.sheet.as_ref(), other.sheet.as_ref())
             && both(&self.clay, &other.clay, Arc::ptr_eq)
+            && self.grids == other.grids
     }
 }

@@ -2,8 +2,7 @@ use std::sync::Arc;
 
 use super::frame::SubjectFrame;
 use super::plate::Plate;
-use super::surface::Surface;
-use super::surface::SurfaceSegment;
+use super::surface::{DistanceGrid, Surface, SurfaceSegment};
 use super::volume::{Segment, Segmentation, Volume};
 
 /// Label of the first segment of meshes beside a volume, whose own labels are below.
@@ -118,6 +117,14 @@ impl Subject {
             Self::Space(space) => space.meshes.as_ref(),
             Self::Mesh(surface) => Some(surface),
             Self::Figure(_) => None,
+        }
+    }
+
+    /// Of a clay, itself after the strokes that its tools are made of.
+    pub fn baked(&self) -> Vec<(u32, Arc<DistanceGrid>)> {
+        match self {
+            Self::Mesh(surface) => surface.grids.clone(),
+            Self::Space(_) | Self::Figure(_) => Vec::new(),
         }
     }
 

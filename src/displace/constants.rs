@@ -6,6 +6,9 @@ use super::kind::TemplateKind;
 use super::spec::{ParamKind, ParamValue};
 use std::fmt::Write as _;
 
+/// Bit of tools that are grids of distances in `drawn_kinds`.
+pub const DRAWN_GRIDS: u32 = 1 << 31;
+
 /// Floats of the parameters that have a bit for each kind in `MAIN_PARAMETERS`.
 const MAIN_FLOATS: usize = 4;
 
@@ -15,6 +18,10 @@ pub fn shader_constants() -> String {
         "/// Bit of templates along curves in `drawn_kinds`.\nconst DRAWN_CURVES: u32 = 0x1u;\n",
     );
     let mut main = [0; MAIN_FLOATS];
+    let _ = writeln!(
+        text,
+        "/// Bit of tools that are grids of distances in `drawn_kinds`.\nconst DRAWN_GRIDS: u32 = {DRAWN_GRIDS:#x}u;"
+    );
     for kind in TemplateKind::ALL {
         let (name, number) = (kind.spec().name.to_uppercase(), kind as u32);
         let bit = 1u32 << number;

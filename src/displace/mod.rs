@@ -79,7 +79,7 @@ mod tools;
 mod twist;
 mod wave;
 
-pub use constants::{shader_constants, without_formula};
+pub use constants::{DRAWN_GRIDS, shader_constants, without_formula};
 pub use facts::{
     Amount, Arc, Facts, Given, Grip, Group, Holds, Icon, Material, Mirror, Reach, Samples, Shape,
     Shrinking, Tool,
@@ -92,9 +92,9 @@ pub use noise::noise;
 pub use points::{ControlPoint, ControlPoints};
 pub use spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateSpec};
 pub(crate) use sweeping::Sweeping;
-pub use sweeping::{ToolWay, WAY_PARTS};
-pub(crate) use tools::{COAT, FARTHEST, LONG, ROUND, SCALE, SOLID};
+pub use sweeping::{GridPlace, ToolWay, WAY_PARTS};
+pub(crate) use tools::{COAT, FARTHEST, LONG, LONGEST, ROUND, SCALE, SOLID};
 pub use tools::{
-    MAX_IMAGES, MAX_KEYS, MAX_PIECES, MAX_SWEEP_STEPS, MAX_TOOL_POINTS, MAX_TOOLS, MOST_STEPS,
-    PathKey, SweepTool, SweepTools, ToolShape,
+    MAX_GRIDS, MAX_IMAGES, MAX_KEYS, MAX_PIECES, MAX_SWEEP_STEPS, MAX_TOOL_POINTS, MAX_TOOLS,
+    MOST_STEPS, PathKey, SweepTool, SweepTools, ToolFile, ToolShape,
 };

@@ -3,19 +3,25 @@
 
 use super::facts::Given;
 use super::mover::{Ball, Mover, counted_in, images_of, spans, wanted_in};
-use super::tools::{PathKey, SweepTool, SweepTools, ToolShape};
+use super::tools::{PathKey, SweepTool, SweepTools, ToolFile, ToolShape};
 use crate::math::{Aabb, Screw, Similarity, smooth_path};
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DQuat, DVec3, UVec3, Vec3};
 
 /// Steps of a tool alone per width of its coating that it travels.
 const STEPS_A_COAT: f64 = 6.0;
 /// Steps in a block, and blocks in a block of blocks, as in shaders/displace/sweep.wgsl.
 const BLOCK: usize = 8;
+/// Rows of the pool before those of images.
+const HEAD_ROWS: usize = 4;
 /// Texels of a step for itself, and for each tool.
 const STEP_ROWS: usize = 2;
 const TOOL_ROWS: usize = 6;
 /// How much finer than to its width a sheared coating has to be known, for each coating of the way and of its stretch.
 const SHEARED: f64 = 0.14;
+/// Bits of the nodes of a grid along one axis, as in shaders/displace/tools.wgsl.
+const NODE_BITS: u32 = 6;
+/// What is not there yet holds nothing: as a ball, from which everything is far away.
+const NOTHING: [f32; 4] = [-1e6, 0.0, 0.0, 0.0];
 /// Reach is rounded up by this part of it, for floats of 32 bits.
 const ROUNDING: f64 = 1e-5;
 
@@ -61,6 +67,15 @@ pub struct ToolWay {
 
 /// Poses of a [`ToolWay`] from one key to the next.
 pub const WAY_PARTS: usize = 16;
+
+/// Where a grid of distances lies in the texture of sweeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GridPlace {
+    /// Its first texel.
+    pub first: usize,
+    /// Nodes along each axis.
+    pub nodes: UVec3,
+}
 
 /// How a `sweep` is evaluated.
 #[derive(Clone, Debug)]
@@ -364,8 +379,14 @@ impl<'a> Sweeping<'a> {
         texels
     }
 
-    /// What the shader reads from the pool, for texels that begin at `first`; nothing if nothing moves.
-    pub(crate) fn rows(&self, progress: f32, first: &mut usize) -> Vec<[f32; 4]> {
+    /// What the shader reads from the pool, for texels that begin at `first`; nothing if nothing moves. `grid_of` says
+    /// where the grid of a mesh lies, if it is there.
+    pub(crate) fn rows(
+        &self,
+        progress: f32,
+        first: &mut usize,
+        grid_of: &dyn Fn(&ToolFile) -> Option<GridPlace>,
+    ) -> Vec<[f32; 4]> {
         let begin = *first;
         *first += self.texel_count();
         let last = self
@@ -409,7 +430,18 @@ impl<'a> Sweeping<'a> {
             let shape = mover.shape;
             let unit = mover.unit as f32;
             let count = shape.points().len();
+            let mut number = shape.number();
             let form = match shape {
+                ToolShape::Mesh { file, longest } => match grid_of(file) {
+                    Some(GridPlace { first, nodes }) => {
+                        let [x, y, z] = nodes.to_array();
+                        let sides = x | y << NODE_BITS | z << (2 * NODE_BITS);
+                        [first as f32, sides as f32, longest * unit, 0.0]
+                    }
+                    None => NOTHING,
+                },
+                // No sweep has one.
+                ToolShape::Clay { .. } => NOTHING,
                 ToolShape::Curve { radius, .. } => {
                     [radius * unit, points as f32, count as f32, 0.0]
                 }
@@ -425,11 +457,23 @@ impl<'a> Sweeping<'a> {
                 }
                 ToolShape::Torus { ring, radius } => [radius * unit, ring * unit, 0.0, 0.0],
             };
+            if form == NOTHING {
+                number = 0;
+            }
             points += count;
             rows.push(form);
-            rows.push([shape.number() as f32, (1.0 / mover.coat) as f32, 0.0, 0.0]);
+            rows.push([number as f32, (1.0 / mover.coat) as f32, 0.0, 0.0]);
         }
         rows
+    }
+}
+
+impl Sweeping<'_> {
+    /// The numbers of the tools' shapes in what [`Sweeping::rows`] gave.
+    pub(crate) fn shapes_in(rows: &[[f32; 4]]) -> impl Iterator<Item = usize> + '_ {
+        let number = |row: usize, part: usize| rows.get(row).map_or(0, |row| row[part] as usize);
+        let (tools, images) = (number(0, 3), number(1, 2));
+        (0..tools).map(move |tool| number(HEAD_ROWS + images + 2 * tool + 1, 0))
     }
 }
 

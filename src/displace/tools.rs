@@ -9,6 +9,8 @@ pub const MAX_TOOLS: usize = 4;
 pub const MAX_IMAGES: usize = 8;
 /// Most keys of a tool's path.
 pub const MAX_KEYS: usize = 64;
+/// Most different meshes that the tools of a document are made of.
+pub const MAX_GRIDS: usize = 16;
 /// Most points of a tool that is a curve.
 pub const MAX_TOOL_POINTS: usize = 32;
 /// Most pieces of paths in all sweeps of a document, images not counted.
@@ -24,6 +26,8 @@ pub const MOST_STEPS: usize = 4096;
 pub(crate) const SOLID: [f64; 2] = [0.005, 2.0];
 pub(crate) const ROUND: [f64; 2] = [0.0, 2.0];
 pub(crate) const LONG: [f64; 2] = [0.0, 4.0];
+/// Range of the longest side of a tool that is a grid of distances.
+pub(crate) const LONGEST: [f64; 2] = [0.01, 4.0];
 /// Ranges of the width of a coating and of the scale of a pose.
 pub(crate) const COAT: [f64; 2] = [0.01, 2.0];
 pub(crate) const SCALE: [f64; 2] = [0.05, 20.0];
@@ -71,6 +75,12 @@ impl SweepTools {
             (MAX_IMAGES / self.images()).min(MAX_TOOLS)
         };
         known.take(fit)
+    }
+
+    /// True if they have an image in a mirror that a document can tell: a mesh has none.
+    pub fn can_be_mirrored(&self) -> bool {
+        let mut shapes = self.tools.iter().filter_map(|tool| tool.shape.as_ref());
+        shapes.all(|shape| shape.file().is_none())
     }
 
     /// The tools as they are in a mirror whose plane is the middle plane of the box across x.
@@ -137,8 +147,7 @@ impl SweepTool {
         let mix = |a: f32, b: f32| a + (b - a) * part;
         self.coat = mix(from.coat, self.coat);
         if let (Some(from), Some(to)) = (&from.shape, &mut self.shape)
-            && from.number() == to.number()
-            && from.count() == to.count()
+            && from.is_like(to)
         {
             let before = from.numbers();
             for (to, from) in to.numbers_mut().into_iter().zip(before) {
@@ -199,11 +208,59 @@ pub enum ToolShape {
     Box { half: Vec3, round: f32 },
     Torus { ring: f32, radius: f32 },
     Curve { points: Vec<Vec3>, radius: f32 },
+    Mesh { file: ToolFile, longest: f32 },
+    Clay { strokes: u32, longest: f32 },
+}
+
+/// The file of a tool that is a mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ToolFile {
+    /// The address of the file, relative to the document or absolute; without one the reader supplies the file.
+    pub src: Option<String>,
+    /// SHA-256 of its bytes, lower-case hex, if given.
+    pub sha256: Option<String>,
+    /// The author's name for it, or empty.
+    pub name: String,
+    /// True if the document has more different meshes before it than are drawn.
+    pub is_left_out: bool,
+}
+
+impl ToolFile {
+    /// The key that tells this file from other files: its hash, else its address. `None` where none is named or drawn.
+    pub fn key(&self) -> Option<&str> {
+        let key = self.sha256.as_deref().or(self.src.as_deref());
+        key.filter(|_| !self.is_left_out)
+    }
 }
 
 impl ToolShape {
-    /// Names in documents, in the order of the numbers that the shaders know shapes by.
+    /// Names in documents of the forms that numbers alone describe.
     pub const NAMES: [&'static str; 6] = ["ball", "ellipsoid", "capsule", "box", "torus", "curve"];
+    /// Names of all forms that tools of a sweep may have, in the order of the numbers that the shaders know them by.
+    pub const OF_SWEEPS: [&'static str; 7] = [
+        "ball",
+        "ellipsoid",
+        "capsule",
+        "box",
+        "torus",
+        "curve",
+        "mesh",
+    ];
+    /// Names of all forms that the tools of a clay may have.
+    pub const OF_CLAYS: [&'static str; 8] = [
+        "ball",
+        "ellipsoid",
+        "capsule",
+        "box",
+        "torus",
+        "curve",
+        "mesh",
+        "clay",
+    ];
+    /// The number of a mesh.
+    pub const MESH: usize = 6;
+    /// Longest side of what is a grid of distances, where nothing is said of it.
+    pub const LONGEST: f32 = 0.4;
 
     /// The default of the shape of a name.
     pub fn named(name: &str) -> Option<Self> {
@@ -228,11 +285,19 @@ impl ToolShape {
                 points: vec![Vec3::new(0.0, 0.0, -0.2), Vec3::new(0.0, 0.0, 0.2)],
                 radius: 0.05,
             },
+            "mesh" => Self::Mesh {
+                file: ToolFile::default(),
+                longest: Self::LONGEST,
+            },
+            "clay" => Self::Clay {
+                strokes: 0,
+                longest: Self::LONGEST,
+            },
             _ => return None,
         })
     }
 
-    /// Its place among [`ToolShape::NAMES`].
+    /// Its place among [`ToolShape::OF_CLAYS`].
     pub fn number(&self) -> usize {
         match self {
             Self::Ball { .. } => 0,
@@ -241,12 +306,14 @@ impl ToolShape {
             Self::Box { .. } => 3,
             Self::Torus { .. } => 4,
             Self::Curve { .. } => 5,
+            Self::Mesh { .. } => Self::MESH,
+            Self::Clay { .. } => 7,
         }
     }
 
     /// Its name in documents.
     pub fn name(&self) -> &'static str {
-        Self::NAMES[self.number()]
+        Self::OF_CLAYS[self.number()]
     }
 
     /// Its points, if it is a curve.
@@ -257,8 +324,26 @@ impl ToolShape {
         }
     }
 
+    /// Its file, if it is a mesh.
+    pub fn file(&self) -> Option<&ToolFile> {
+        match self {
+            Self::Mesh { file, .. } => Some(file),
+            _ => None,
+        }
+    }
+
     fn count(&self) -> usize {
         self.points().len()
+    }
+
+    /// True if both differ in numbers alone, so that there are forms between them.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let is_same = match (self, other) {
+            (Self::Mesh { file, .. }, Self::Mesh { file: own, .. }) => file == own,
+            (Self::Clay { strokes, .. }, Self::Clay { strokes: own, .. }) => strokes == own,
+            _ => self.number() == other.number(),
+        };
+        is_same && self.count() == other.count()
     }
 
     /// All of its numbers, in the order in which the document names them.
@@ -283,6 +368,7 @@ impl ToolShape {
                 all.push(radius);
                 all
             }
+            Self::Mesh { longest, .. } | Self::Clay { longest, .. } => vec![longest],
         }
     }
 
@@ -297,13 +383,14 @@ impl ToolShape {
                 Self::Torus { .. } => [SOLID, ROUND][i],
                 Self::Curve { .. } if i < points => [-LONG[1], LONG[1]],
                 Self::Curve { .. } => ROUND,
+                Self::Mesh { .. } | Self::Clay { .. } => LONGEST,
             };
             low <= f64::from(*x) && f64::from(*x) <= high
         };
         all.iter().enumerate().all(is_within)
     }
 
-    /// Distance of its farthest point from its origin.
+    /// Distance of its farthest point from its origin; of a mesh, that of a corner of the cube that holds it.
     pub fn farthest(&self) -> f32 {
         match self {
             Self::Ball { radius } => *radius,
@@ -317,6 +404,9 @@ impl ToolShape {
             Self::Curve { points, radius } => {
                 let far = points.iter().map(|point| point.length());
                 far.fold(0.0, f32::max) + radius
+            }
+            Self::Mesh { longest, .. } | Self::Clay { longest, .. } => {
+                Vec3::splat(0.5 * longest).length()
             }
         }
     }
@@ -332,6 +422,20 @@ fn ellipse(middle: Vec3, u: Vec3, v: Vec3) -> Vec<Vec3> {
         middle + cos * u + sin * v
     };
     (0..=CORNERS).map(corner).collect()
+}
+
+/// The edges of a box about the origin.
+fn edges(half: Vec3) -> Vec<Vec<Vec3>> {
+    let corner = |i: usize| {
+        let signs = [i, i >> 1, i >> 2].map(|bit| if bit & 1 == 1 { 1.0 } else { -1.0 });
+        Vec3::from_array(signs) * half
+    };
+    let mut lines = vec![
+        [0, 1, 3, 2, 0].map(corner).to_vec(),
+        [4, 5, 7, 6, 4].map(corner).to_vec(),
+    ];
+    lines.extend((0..4).map(|i| vec![corner(i), corner(i + 4)]));
+    lines
 }
 
 impl ToolShape {
@@ -362,18 +466,10 @@ impl ToolShape {
                 }));
                 lines
             }
-            Self::Box { half, .. } => {
-                let corner = |i: usize| {
-                    let signs =
-                        [i, i >> 1, i >> 2].map(|bit| if bit & 1 == 1 { 1.0 } else { -1.0 });
-                    Vec3::from_array(signs) * *half
-                };
-                let mut lines = vec![
-                    [0, 1, 3, 2, 0].map(corner).to_vec(),
-                    [4, 5, 7, 6, 4].map(corner).to_vec(),
-                ];
-                lines.extend((0..4).map(|i| vec![corner(i), corner(i + 4)]));
-                lines
+            Self::Box { half, .. } => edges(*half),
+            // The cube that holds it: its own sides are not known here.
+            Self::Mesh { longest, .. } | Self::Clay { longest, .. } => {
+                edges(Vec3::splat(0.5 * longest))
             }
             Self::Torus { ring, radius } => {
                 let rims =

@@ -87,9 +87,14 @@ pub fn mirrored(template: &PlacedTemplate, plane: Plane) -> (Placement, Vec<Para
 
 /// The edits that mirror a template, or a copy of it that is inserted after it.
 ///
-/// There are none for a template that holds a file or an object: samples and objects cannot be mirrored.
+/// There are none for a template that holds a file or an object, or a tool that is a mesh: samples, objects and meshes
+/// cannot be mirrored.
 pub fn mirror(template: &PlacedTemplate, plane: Plane, as_copy: bool) -> Vec<Edit> {
-    if matches!(template.kind.facts().holds, Holds::File | Holds::Object) {
+    let is_held = match &template.data {
+        TemplateData::Tools(tools) => !tools.can_be_mirrored(),
+        _ => matches!(template.kind.facts().holds, Holds::File | Holds::Object),
+    };
+    if is_held {
         return Vec::new();
     }
     let (placement, params) = mirrored(template, plane);

@@ -2,8 +2,9 @@
 
 use super::model::{
     Align, Background, Curve, Ghost, Hatch, Illustration, Layer, Light, Outline, ParamKind,
-    ParamValue, PlacedTemplate, SceneObject, SegmentLook, Stipple, Style, SurfaceChange,
-    SurfaceLook, TemplateData, Tone, Transfer, TransferPoint, Window, join_objects, limit_sweeps,
+    ParamValue, PlacedTemplate, SceneObject, SegmentLook, Stipple, Style, SubjectRef,
+    SurfaceChange, SurfaceLook, TemplateData, Tone, Transfer, TransferPoint, Window, join_objects,
+    limit_grids, limit_sweeps,
 };
 use super::pose::blend_figure;
 use crate::math::mix_srgb;
@@ -54,6 +55,11 @@ pub(super) fn blend(start: &Illustration, end: &Illustration, part: f32) -> Illu
     // What carves is where its object is. Which of them do nothing was told when the document was read.
     let _told = join_objects(&mut out.templates, &out.objects);
     let _told = limit_sweeps(&mut out.templates);
+    let clay = match &out.subject {
+        SubjectRef::Clay(clay) => Some(&**clay),
+        _ => None,
+    };
+    let _told = limit_grids(&mut out.templates, clay);
     if let (Some(a), Some(b)) = (start.strokes_shown(), end.strokes_shown())
         && part < 1.0
     {

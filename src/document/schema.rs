@@ -26,7 +26,8 @@ use super::model::{
 };
 use super::text::{json, pointer};
 use crate::displace::{
-    COAT, Holds, LONG, MAX_KEYS, MAX_TOOL_POINTS, MAX_TOOLS, ROUND, SCALE, SOLID, ToolShape,
+    COAT, Holds, LONG, LONGEST, MAX_KEYS, MAX_TOOL_POINTS, MAX_TOOLS, ROUND, SCALE, SOLID,
+    ToolShape,
 };
 use crate::math::{Placement, plain_f64};
 use serde_json::{Map, Value, json};
@@ -530,8 +531,9 @@ pub(crate) const CLAY_OF: &[Key] = &[
 /// Keys of a tool of a clay. Its lengths are subject units.
 #[rustfmt::skip]
 pub(crate) const CLAY_TOOL: &[Key] = &{
-    let [a, b, c, d, e, f, g, h] = shape_keys("of a ball (0.1 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)");
-    [a, b, c, d, e, f, g, h,
+    let [a, b, c, d, e, f, g, h, i, j, k, l] = shape_keys(&ToolShape::OF_CLAYS, "its form. A capsule lies along z, a torus about z. A `mesh` is that of a file, a `clay` this clay after its first strokes; each lies about the centre of its box", "of a ball (0.1 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)");
+    [a, b, c, d, e, f, g, h, i, j, k, l,
+    key(BY_NAME, "strokes", Kind::Count { default: 0.0, min: 0.0, max: Clay::MAX_STROKES as f64 }, "how many of the clay's first strokes a `clay` is made of. A stroke whose tool is made of it or of later strokes is left out"),
     key(BY_NAME, "coat", exact(0.1, COAT[0], COAT[1]), "width of the coating in which its motion fades")]
 };
 
@@ -742,8 +744,8 @@ pub(crate) const SWEEP: &[Key] = &[
 /// Keys of a tool of a `sweep`. Its lengths are fractions of the shortest side of the box.
 #[rustfmt::skip]
 pub(crate) const TOOL: &[Key] = &{
-    let [a, b, c, d, e, f, g, h] = shape_keys("of a ball (0.15 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)");
-    [a, b, c, d, e, f, g, h,
+    let [a, b, c, d, e, f, g, h, i, j, k, l] = shape_keys(&ToolShape::OF_SWEEPS, "its form. A capsule lies along z, a torus about z. A `mesh` is that of a file, about the centre of its box, with the file's axes", "of a ball (0.15 without this key, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)");
+    [a, b, c, d, e, f, g, h, i, j, k, l,
     key(BY_NAME, "coat", number(0.25, COAT[0], COAT[1]), "width of the coating in which its motion fades"),
     key(BY_NAME, "spline", Kind::Flag { default: false }, "true: places are joined by a Catmull-Rom curve, each span of four screws; false: one screw from key to key"),
     key(BY_NAME, "path", Kind::FirstOf { of: PATH_KEY, most: MAX_KEYS }, "its poses, each an object with these keys or its place alone; with one it stands still. Without this key `[[0.5, 0.5, 1.15], [0.5, 0.5, 0.65]]`").optional().unmade()]
@@ -751,9 +753,13 @@ pub(crate) const TOOL: &[Key] = &{
 
 /// The keys that give a tool its form.
 #[rustfmt::skip]
-const fn shape_keys(radius: &'static str) -> [Key; 8] {
+const fn shape_keys(names: &'static [&'static str], shape: &'static str, radius: &'static str) -> [Key; 12] {
     [
-    key(BY_NAME, "shape", Kind::Name(&ToolShape::NAMES), "its form. A capsule lies along z, a torus about z"),
+    key(230, "src", Kind::Address, "address of the file of a `mesh`").optional(),
+    key(240, "sha256", Kind::Hash, "hash of its bytes; without `src` the reader supplies the file that has it. A document has at most 16 different ones").optional(),
+    key(250, "name", Kind::Text, "the author's name for the file"),
+    key(BY_NAME, "shape", Kind::Name(names), shape),
+    key(BY_NAME, "longest", number(ToolShape::LONGEST as f64, LONGEST[0], LONGEST[1]), "longest side of the box of a `mesh` or a `clay`"),
     key(BY_NAME, "radius", number(0.15, ROUND[0], ROUND[1]), radius).optional(),
     key(BY_NAME, "radii", Kind::Vector { default: [0.2, 0.15, 0.1], min: SOLID[0], max: SOLID[1] }, "half axes of an ellipsoid"),
     key(BY_NAME, "length", number(0.4, LONG[0], LONG[1]), "of the straight part of a capsule"),

@@ -1,6 +1,7 @@
 use crate::data::{Carver, FieldSamples, Resources};
 use crate::displace::{
-    Given, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Sweeping, Tool, ToolWay,
+    Given, GridPlace, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Sweeping, Tool,
+    ToolFile, ToolWay,
 };
 use crate::document::{PlacedTemplate, TemplateData};
 use glam::Vec3;
@@ -59,10 +60,20 @@ fn acting_size(template: &PlacedTemplate) -> Vec3 {
 }
 
 /// What the shader of a `sweep` that acts ([`PlacedTemplate::acting`]) reads besides its parameters, for steps that
-/// begin at texel `first` of their texture; `first` is moved behind them (shaders/displace/sweep.wgsl).
-pub fn sweep_rows(template: &PlacedTemplate, first: &mut usize) -> Vec<[f32; 4]> {
+/// begin at texel `first` of their texture; `first` is moved behind them (shaders/displace/sweep.wgsl). `grid_of` says
+/// where in it the grid of a mesh lies.
+pub fn sweep_rows(
+    template: &PlacedTemplate,
+    first: &mut usize,
+    grid_of: &dyn Fn(&ToolFile) -> Option<GridPlace>,
+) -> Vec<[f32; 4]> {
     let given = given(template, None, None);
-    Sweeping::of(&given).rows(given.p[0], first)
+    Sweeping::of(&given).rows(given.p[0], first, grid_of)
+}
+
+/// The numbers of the shapes of a sweep's tools, from its rows ([`sweep_rows`]).
+pub fn sweep_shapes(rows: &[[f32; 4]]) -> impl Iterator<Item = usize> + '_ {
+    Sweeping::shapes_in(rows)
 }
 
 /// The steps of a `sweep` as its shader reads them; none of other kinds.

@@ -135,11 +135,14 @@ impl Stock {
         missing.retain(|want| match want.role {
             Role::Subject => true,
             Role::Segments => self.is_whole && want.src().is_some(),
-            Role::Field | Role::Mesh | Role::Object => false,
+            Role::Field | Role::Mesh | Role::Object | Role::Tool => false,
         });
         missing.retain(|want| !self.assets.is_refused(want));
         self.loading = missing.into_iter().next();
         self.fraction = 0.0;
+        if let Some(want) = &self.loading {
+            self.assets.asked_for(want);
+        }
         self.loading.clone()
     }
 
@@ -151,7 +154,7 @@ impl Stock {
             return None;
         }
         let mut missing = self.assets.missing(shown);
-        let is_one = |want: &Want| matches!(want.role, Role::Object | Role::Mesh);
+        let is_one = |want: &Want| matches!(want.role, Role::Object | Role::Mesh | Role::Tool);
         missing.retain(|want| is_one(want) && !self.assets.is_refused(want));
         self.loading = missing.into_iter().next();
         self.fraction = 0.0;
@@ -316,7 +319,7 @@ impl Stock {
             self.is_whole = !self.has_failed();
         }
         self.loading = None;
-        if matches!(want.role, Role::Object | Role::Mesh) {
+        if matches!(want.role, Role::Object | Role::Mesh | Role::Tool) {
             self.take_mesh(&want, sha256);
         }
         for file in std::mem::take(&mut self.incoming_labels) {
@@ -347,6 +350,7 @@ impl Stock {
                 self.assets.refuse(want);
                 let what = match want.role {
                     Role::Mesh => "A mesh of the subject",
+                    Role::Tool => "The mesh of a tool",
                     _ => "An object",
                 };
                 Some(format!(

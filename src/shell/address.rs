@@ -4,9 +4,9 @@ use wasm_bindgen::JsCast as _;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{Blob, Url};
 
-use super::worker::task::{Part, ScanTask, Task};
+use super::worker::task::{ClayTask, Part, ScanTask, Task};
 use crate::assets::{Role, Want};
-use crate::document::{Document, SubjectRef, clay_to_text};
+use crate::document::{Document, SubjectRef};
 
 /// The host of an absolute address, if it is another one than the page's: nothing is fetched from there unasked.
 pub(super) fn foreign_host(address: &str) -> Option<String> {
@@ -85,7 +85,7 @@ pub(super) fn address_task(address: String, want: &Want) -> Task {
 /// The task for a want whose file is read by this one: a clay begins with it.
 pub(super) fn file_task(want: &Want, task: ScanTask) -> Task {
     match want.clay() {
-        Some(clay) => Task::Clay(clay_to_text(clay), Some(task)),
+        Some(clay) => Task::Clay(ClayTask::of(clay, want), Some(task)),
         None => Task::Scan(task),
     }
 }

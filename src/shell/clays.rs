@@ -9,7 +9,9 @@ use super::loading::{Post, PostingSink, hash_of};
 use super::loading::{is_mesh_file, read_scan, slabs_in_threads as slabs};
 use crate::assets::{LoadEvent, Want};
 use crate::clay::{ClayError, MAX_FILE_TRIANGLES, Shaping};
-use crate::data::{Mesh, SubjectPart, SubjectSink, Surface, SurfaceError, Volume, VolumeBuilder};
+use crate::data::{
+    DistanceGrid, Mesh, SubjectPart, SubjectSink, Surface, SurfaceError, Volume, VolumeBuilder,
+};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::document::Reading;
 use crate::document::{Clay, ClayStart, SubjectRef, VoxelSource};
@@ -36,6 +38,8 @@ pub struct ClayDesk {
     /// What the last one begins with, if that is a file or a part of a volume.
     start: Option<MadeStart>,
     last: Option<Arc<Clay>>,
+    /// The grids of its tools that are meshes, by the keys of their files.
+    meshes: Vec<(String, Arc<DistanceGrid>)>,
     /// The clay of `last` after some of its strokes, the latest last.
     kept: Vec<Shaping>,
 }
@@ -95,6 +99,14 @@ fn nameless(from: &ClayStart) -> ClayStart {
 }
 
 impl ClayDesk {
+    /// Takes the grids of tools that are meshes, as far as they are there, in place of those before.
+    pub fn take_meshes(&mut self, meshes: &[(String, Arc<DistanceGrid>)]) {
+        if self.meshes != meshes {
+            self.meshes = meshes.to_vec();
+            self.kept.clear();
+        }
+    }
+
     /// Reads the file that a clay begins with, unless that is here already: the same address may lead to another file
     /// by now, so that its bytes tell, or the hash that the document gives. The report gets the hash.
     ///
@@ -117,7 +129,10 @@ impl ClayDesk {
             }
         }
         // Strokes on another start are no strokes on this one, though its address may be the same.
-        *self = Self::default();
+        *self = Self {
+            meshes: std::mem::take(&mut self.meshes),
+            ..Self::default()
+        };
         let shaping = match clay.volume() {
             Some(meant) => {
                 let volume = read_voxels((files, name), &meant.of, report, &mut |part| {
@@ -191,7 +206,7 @@ impl ClayDesk {
             .as_ref()
             .and_then(|last| last.strokes_shared(clay));
         self.kept
-            .retain(|kept| common.is_some_and(|common| kept.done() <= common));
+            .retain(|kept| common.is_some_and(|common| kept.done() <= common) && !kept.lacks(clay));
         self.last = Some(Arc::clone(clay));
         let all = clay.strokes.len();
         let mut begun = 0.0;
@@ -202,6 +217,7 @@ impl ClayDesk {
                 go_on(BEGINNING * part)
             })?,
         };
+        shaping = shaping.with_meshes(&self.meshes);
         self.keep(&shaping, all);
         while shaping.done() < all {
             let done = shaping.done() as f32;
@@ -354,7 +370,10 @@ pub fn surface_of_clay(
         go_on(STROKES + (1.0 - STROKES) * part)
     });
     match surface {
-        Ok(surface) => Ok((Arc::new(surface), shaping.notices())),
+        Ok(mut surface) => {
+            surface.grids.clone_from(&shaping.grids().baked);
+            Ok((Arc::new(surface), shaping.notices()))
+        }
         Err(SurfaceError::Stopped) => Err(ClayError::Stopped),
         Err(why) => Err(ClayError::NoSurface(why.to_string())),
     }
@@ -416,7 +435,7 @@ pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
 mod tests {
     use super::*;
     use crate::clay::Check;
-    use crate::document::{ClayTool, Document};
+    use crate::document::{ClayTool, Document, ToolShape};
     use crate::load::MemoryFiles;
 
     const PULLED: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05, "tools": [{ "radius": 0.1 }],
@@ -500,6 +519,40 @@ mod tests {
         };
         desk.shape(&Arc::new(other), &mut hear).unwrap();
         assert!(is_first);
+    }
+
+    /// A tool made of an earlier state, which nobody kept: the desk goes back to it.
+    #[test]
+    fn what_is_baked_late_is_as_if_made_anew() {
+        let clay = pulled();
+        let mut desk = ClayDesk::default();
+        desk.shape(&clay, &mut |_| true).unwrap();
+        let mut other = Clay::clone(&clay);
+        other.tools.push(ClayTool {
+            shape: Some(ToolShape::Clay {
+                strokes: 1,
+                longest: 0.3,
+            }),
+            coat: 0.1,
+        });
+        let mut stroke = other.strokes[0].clone();
+        stroke.moves[0].tool = 1;
+        stroke.moves[0]
+            .keys
+            .iter_mut()
+            .for_each(|key| key.at.reverse());
+        other.strokes.push(stroke);
+        let other = Arc::new(other);
+        let late = desk.shape(&other, &mut |_| true).unwrap();
+        assert_eq!(late.left_out(), []);
+        let late = late.shaped();
+        let anew = ClayDesk::default()
+            .shape(&other, &mut |_| true)
+            .unwrap()
+            .shaped();
+        assert_eq!(late, anew);
+        let (surface, _) = surface_of_clay(&mut desk, &other, &mut |_| true).unwrap();
+        assert_eq!(surface.grids.len(), 1, "captions go with the tool");
     }
 
     #[test]

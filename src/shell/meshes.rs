@@ -58,14 +58,8 @@ fn read_meshes(
     report: &mut LoadReport,
 ) -> Result<(), LoadError> {
     let meshes = mesh_files(files, name, reading, report)?;
-    let mut carving = Carving(sink);
-    read_mesh_subject(
-        files,
-        &meshes,
-        box_of(reading),
-        carving.where_it(reading.carves),
-        report,
-    )
+    let mut finishing = Finishing::new(sink, reading.carves, reading.sweeps);
+    read_mesh_subject(files, &meshes, box_of(reading), finishing.sink(), report)
 }
 
 /// The box that takes the place of that of all vertices, if the document has one.
@@ -84,8 +78,8 @@ pub fn make_mesh(name: &str, carves: bool, post: &mut dyn Post) {
         return;
     };
     let mut sink = PostingSink::new(post);
-    let mut carving = Carving(&mut sink);
-    let sink = carving.where_it(carves);
+    let mut finishing = Finishing::new(&mut sink, carves, false);
+    let sink = finishing.sink();
     let surface = Surface::new(&mesh, None, &mut |part| sink.progress(part));
     let part = surface.map(|surface| SubjectPart::Surface(Arc::new(surface)));
     let is_whole = part.is_ok_and(|part| sink.take(part).is_ok());
@@ -96,38 +90,57 @@ pub fn make_mesh(name: &str, carves: bool, post: &mut dyn Post) {
     });
 }
 
-/// Passes on the surface of an object with what a template `carve` reads of it.
-pub(super) struct Carving<'a>(pub(super) &'a mut dyn SubjectSink);
+/// Passes on the surface of an object with what a template `carve` reads of it, and that of a tool with its grid of
+/// distances.
+pub(super) struct Finishing<'a> {
+    behind: &'a mut dyn SubjectSink,
+    carves: bool,
+    sweeps: bool,
+}
 
-impl Carving<'_> {
+impl<'a> Finishing<'a> {
     /// Part of the work that is done when there is a surface.
     const SURFACE: f32 = 0.5;
 
-    /// This one for an object that a template carves by, else the sink behind it.
-    pub(super) fn where_it(&mut self, carves: bool) -> &mut dyn SubjectSink {
-        match carves {
+    pub(super) fn new(behind: &'a mut dyn SubjectSink, carves: bool, sweeps: bool) -> Self {
+        Self {
+            behind,
+            carves,
+            sweeps,
+        }
+    }
+
+    /// This one where there is something to be made besides, else the sink behind it.
+    pub(super) fn sink(&mut self) -> &mut dyn SubjectSink {
+        match self.carves || self.sweeps {
             true => self,
-            false => self.0,
+            false => self.behind,
         }
     }
 }
 
-impl SubjectSink for Carving<'_> {
+impl SubjectSink for Finishing<'_> {
     fn take(&mut self, part: SubjectPart) -> Result<(), String> {
         let SubjectPart::Surface(surface) = part else {
-            return self.0.take(part);
+            return self.behind.take(part);
         };
         let mut go_on = |part| {
-            self.0
+            self.behind
                 .progress(Self::SURFACE + (1.0 - Self::SURFACE) * part)
         };
-        let surface = Arc::unwrap_or_clone(surface).carving(&mut go_on);
-        let surface = surface.map_err(|stopped| stopped.to_string())?;
-        self.0.take(SubjectPart::Surface(Arc::new(surface)))
+        let mut made = Ok(Arc::unwrap_or_clone(surface));
+        if self.carves {
+            made = made.and_then(|surface| surface.carving(&mut go_on));
+        }
+        if self.sweeps {
+            made = made.and_then(|surface| surface.sweeping(&mut go_on));
+        }
+        let surface = made.map_err(|stopped| stopped.to_string())?;
+        self.behind.take(SubjectPart::Surface(Arc::new(surface)))
     }
 
     fn progress(&mut self, fraction: f32) -> bool {
-        self.0.progress(Self::SURFACE * fraction)
+        self.behind.progress(Self::SURFACE * fraction)
     }
 }
 

@@ -329,7 +329,8 @@ impl NativeServices {
 
     /// Shapes a clay in a thread; `file` is what it begins with, if that is a file. One that nobody wants any more lets
     /// the desk go at its next step.
-    fn start_clay(&mut self, clay: Arc<Clay>, file: Option<PathBuf>) -> Ticket {
+    fn start_clay(&mut self, clay: Arc<Clay>, want: &Want, file: Option<PathBuf>) -> Ticket {
+        let meshes = want.meshes.clone();
         let (ticket, is_wanted) = self.new_ticket();
         let (sender, ctx, desk) = (
             self.sender.clone(),
@@ -343,6 +344,7 @@ impl NativeServices {
                 post_while_wanted(&sender, &ctx, ticket, &is_wanted, event)
             };
             let mut desk = desk.lock().unwrap_or_else(PoisonError::into_inner);
+            desk.take_meshes(&meshes);
             match &file {
                 None => make_clay(&mut desk, &clay, &mut post),
                 Some(path) => {
@@ -591,7 +593,7 @@ impl Services for NativeServices {
         match &want.source {
             Source::Builtin(name) => return self.start_builtin(name.clone(), want),
             Source::Clay(clay) if !want.has_file() => {
-                return self.start_clay(Arc::clone(clay), None);
+                return self.start_clay(Arc::clone(clay), want, None);
             }
             Source::Clay(_) | Source::File { .. } => {}
         }
@@ -617,7 +619,7 @@ impl Services for NativeServices {
         };
         match (want.role, want.clay()) {
             (Role::Segments, _) => self.start_segments(path),
-            (_, Some(clay)) => self.start_clay(Arc::clone(clay), Some(path)),
+            (_, Some(clay)) => self.start_clay(Arc::clone(clay), want, Some(path)),
             (_, None) => self.start_file(path, true, want.reading.clone()),
         }
     }

@@ -16,14 +16,14 @@ use super::texts::{self, Texts};
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
 use super::worker::run::{self, BendWorker, WorkerLoad};
-use super::worker::task::{ScanTask, Task};
+use super::worker::task::{ClayTask, ScanTask, Task};
 use crate::app::{
     LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, SetText, Shipped, TextOver,
     TextToSet, Ticket, ask_for_frame,
 };
 use crate::assets::{BendAnswer, BendRequest, LoadEvent, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
-use crate::document::{RawVoxels, Reading, clay_to_text};
+use crate::document::{RawVoxels, Reading};
 use crate::load::FieldFile;
 
 /// A larger file is no document (the contract's limit is 1 MiB), and is opened as a scan.
@@ -473,7 +473,7 @@ impl Services for PageServices {
             }
             Source::Clay(clay) if !want.has_file() => {
                 let ticket = self.0.borrow_mut().new_ticket();
-                self.start(ticket, &Task::Clay(clay_to_text(clay), None));
+                self.start(ticket, &Task::Clay(ClayTask::of(clay, want), None));
                 return ticket;
             }
             Source::Clay(_) | Source::File { .. } => {}

@@ -18,10 +18,10 @@ use super::wished;
 use super::worker::answer::Answer;
 use super::worker::fault::text_of;
 use super::worker::run::{self, BendWorker, Maker, WorkerLoad};
-use super::worker::task::{Part, ScanTask, Task};
+use super::worker::task::{ClayTask, Part, ScanTask, Task};
 use crate::assets::{BendAnswer, LoadEvent, Role, SegmentationsExpected, Source, Want};
 use crate::describe::{Lang, seen_from};
-use crate::document::{Illustration, clay_to_text};
+use crate::document::Illustration;
 use crate::link::{self, Qr};
 use crate::reader::{Picture, Stock, StockKey, Visit, outline, texts};
 use crate::render::{Gpu, GpuOptions, RenderError};
@@ -878,14 +878,14 @@ impl Inner {
         match &want.source {
             Source::Builtin(name) => return Way::Start(builtin_task(name, want)),
             Source::Clay(clay) if !want.has_file() => {
-                return Way::Start(Task::Clay(clay_to_text(clay), None));
+                return Way::Start(Task::Clay(ClayTask::of(clay, want), None));
             }
             Source::Clay(_) | Source::File { .. } => {}
         }
         let Some(src) = want.src() else {
             let message = wanted_file(want.name());
             return match want.role {
-                Role::Object | Role::Mesh => Way::Fail(message),
+                Role::Object | Role::Mesh | Role::Tool => Way::Fail(message),
                 _ => Way::File(message),
             };
         };

@@ -1324,6 +1324,91 @@ fn rays_meet_objects() {
     probe(r#"{"src":"bad.obj"}"#, "0,0,2,0,0,-1\n").failed(&["bad.obj", "line 2"]);
 }
 
+/// Tools of sweeps and of clays are meshes from beside the document, or given by their hash.
+#[test]
+fn tools_may_be_meshes() {
+    let folder = folder();
+    let block = box_obj("block", [7.0; 3], 10.0);
+    write(&folder, "block.obj", &block);
+    let sweep = |file: &str| {
+        let text = r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [{ "kind": "sweep",
+            "size": [1, 1, 1], "params": { "tools": [{ "shape": "mesh", FILE, "longest": 0.2, "coat": 0.2,
+            "path": [[0.5, 0.5, 0.2], [0.5, 0.5, 0.7]] }] } }] }"#;
+        write(&folder, "sweep.json", text.replace("FILE", file));
+    };
+    let probe = |args: &[&str]| {
+        let args = [&["probe", "sweep.json"], args].concat();
+        fabrica_with(folder.path(), &args, b"0.05,-0.05,0.25\n").ok()
+    };
+    let is_moved = |out: &str| {
+        let source: Vec<f32> = out
+            .trim()
+            .split(',')
+            .map(|n| n.parse().expect("a number"))
+            .collect();
+        let [.., z, _] = source[..] else {
+            panic!("{out}")
+        };
+        (z + 0.25).abs() < 1e-3
+    };
+    sweep(r#""src": "block.obj""#);
+    let told = probe(&[]);
+    assert!(
+        is_moved(&told.out) && told.err.is_empty(),
+        "{} {}",
+        told.out,
+        told.err
+    );
+    let hash = hash(block.as_bytes());
+    sweep(&format!(r#""sha256": "{hash}", "name": "Block""#));
+    assert!(is_moved(&probe(&["--mesh", "block.obj"]).out));
+    let gone = probe(&[]);
+    assert!(!is_moved(&gone.out), "{}", gone.out);
+    assert!(
+        gone.err.contains("tool “Block”") && gone.err.contains(&hash),
+        "{}",
+        gone.err
+    );
+    sweep(&format!(
+        r#""src": "block.obj", "sha256": "{}""#,
+        "0".repeat(64)
+    ));
+    let wrong = fabrica_with(folder.path(), &["probe", "sweep.json"], b"0,0,0\n");
+    wrong.failed(&["block.obj", "another file than the document means"]);
+    // Without its upper side it is a sheet.
+    let lines: Vec<&str> = block.lines().collect();
+    write(&folder, "block.obj", lines[..lines.len() - 1].join("\n"));
+    sweep(r#""src": "block.obj""#);
+    let told = probe(&[]);
+    assert!(told.err.contains("as a tool it is a sheet"), "{}", told.err);
+    write(&folder, "block.obj", &block);
+    let clay = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05, "tools": [
+        { "shape": "mesh", "src": "block.obj", "longest": 0.2 }, { "shape": "clay", "strokes": 1, "longest": 0.3 }],
+        "strokes": [{ "path": [0, 0, 700, 0, 0, -200] }, { "tool": 1, "path": [700, 0, 0, -200, 0, 0] }] } } }"#;
+    write(&folder, "clay.json", clay);
+    let check = || {
+        let args = ["clay", "clay.json", "--check", "--json"];
+        let told = fabrica_with(folder.path(), &args, b"").ok();
+        let check: Value = serde_json::from_str(&told.out).expect("JSON");
+        assert_eq!(
+            (&check["euler"], &check["border_edges"]),
+            (&json!(2), &json!(0))
+        );
+        (check["sha256"].clone(), told.err)
+    };
+    let (with, told) = check();
+    assert_eq!(told, "");
+    assert_eq!(check().0, with, "it is the same every time");
+    fabrica_with(folder.path(), &["info", "clay.json"], b"").ok();
+    std::fs::remove_file(folder.path().join("block.obj")).expect("it was there");
+    let (without, told) = check();
+    assert_ne!(with, without);
+    assert!(
+        told.contains("block.obj") && told.contains("stroke 1 holds nothing"),
+        "{told}"
+    );
+}
+
 #[test]
 fn several_meshes_are_one_subject() {
     let folder = folder();

@@ -3,14 +3,15 @@
 use crate::align::{Labels, probe};
 use crate::gpu::{builtin, gpu, studio_of};
 use crate::long::long_or;
-use crate::reference_sweep::{Sweep, source, target};
+use crate::reference_sweep::{Measured, Sweep, source, target};
 use crate::scatter::Random;
-use fabrica::data::Resources;
+use fabrica::data::{DistanceGrid, Grids, Resources};
 use fabrica::document::Document;
 use fabrica::placed;
 use fabrica::render::{Probe, Sample};
 use glam::{DVec3, Quat, Vec3};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 /// spec/sweepers.md, A.3: how far a place, and a source by the stretch of the map, may be off, subject units.
 const BOUND: f64 = 1e-3;
@@ -166,6 +167,93 @@ fn random_sweeps_are_the_flow_of_the_reference() {
     println!("{asked} points, {moved} moved, {off_aim} off by more than {AIM}");
     assert!(moved > asked / 8, "of {asked} points only {moved} move");
     assert!(off_aim < asked / 50, "{off_aim} of {asked} miss the aim");
+}
+
+/// A block, 1 by 0.6 by 0.3, as a grid of distances.
+fn block() -> Arc<DistanceGrid> {
+    let corner = |i: u32| {
+        let side = |bit: u32| if i >> bit & 1 == 1 { 0.5 } else { -0.5 };
+        Vec3::new(side(0), 0.6 * side(1), 0.3 * side(2))
+    };
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let halves = |&[a, b, c, d]: &[u32; 4]| [[a, b, c], [a, c, d]];
+    let triangles: Vec<[u32; 3]> = quads.iter().flat_map(halves).collect();
+    let positions: Vec<Vec3> = (0..8).map(corner).collect();
+    let grid = DistanceGrid::of_mesh(&positions, &triangles, true, &mut |_| true);
+    Arc::new(grid.expect("a block has a size"))
+}
+
+/// Tools that are meshes are their grids, linear between nodes; one of which nothing has come holds nothing.
+#[test]
+fn meshes_are_swept_as_their_grids() {
+    let grid = block();
+    let resources = Resources {
+        grids: Grids {
+            files: vec![("block.stl".to_owned(), Arc::clone(&grid))],
+            baked: Vec::new(),
+        },
+        ..Resources::default()
+    };
+    let measured: Measured = Arc::new(move |q| grid.distance(q));
+    let mut random = Random(0x619d);
+    let (mut moved, mut off_aim, mut asked) = (0, 0, 0);
+    for round in 0..long_or(12, 5) {
+        let mut mesh = tool(&mut random, 0);
+        mesh["shape"] = json!("mesh");
+        mesh["src"] = json!("block.stl");
+        mesh["longest"] = json!(short(random.between(0.2, 0.8)));
+        let keys = mesh.as_object_mut().expect("a tool");
+        keys.remove("radius");
+        let mut tools = vec![mesh];
+        if round % 2 == 1 {
+            // Another of the same file, and one of no file that is here.
+            let mut other = tools[0].clone();
+            other["longest"] = json!(0.15);
+            other["path"] = json!([[0.2, 0.3, 0.4], [0.7, 0.6, 0.5]]);
+            tools.extend([other, tool(&mut random, 1 + round % 5)]);
+        }
+        let templates = json!([{ "kind": "sweep", "size": [1, 0.8, 0.9],
+            "rotate": random.rotation().to_array().map(short),
+            "params": { "mirror": ["", "x"][round % 2], "tools": tools } }]);
+        let document = document(templates);
+        let text: Value = serde_json::from_str(&document.to_json()).expect("its own text");
+        let of = &document.illustration().templates[0];
+        let points: Vec<Vec3> = (0..long_or(200, 60))
+            .map(|_| of.subject_from_template(random.vector(-0.2, 1.2)))
+            .collect();
+        let probe = pollster::block_on(Probe::new(gpu())).expect("the probe program compiles");
+        let samples = probe.samples(document.illustration(), &resources, &points);
+        let found = pollster::block_on(samples).expect("samples");
+        let with_mesh = |sweep: Sweep| sweep.with_mesh(&measured);
+        let mut reference: Vec<Sweep> = Sweep::all(&text).into_iter().map(with_mesh).collect();
+        let [over, off] = wrong(&reference, &points, &found);
+        assert_eq!(over, 0, "round {round}: {text}");
+        off_aim += off;
+        asked += points.len();
+        let is_moved = |(p, s): &(&Vec3, &Sample)| p.distance(s.pos_in_rest) > 0.01;
+        let count = points.iter().zip(&found).filter(is_moved).count();
+        moved += count;
+        if round % 2 == 0 {
+            if count > 5 {
+                reference[0].is_wrong = true;
+                let [over, _] = wrong(&reference, &points, &found);
+                assert!(over > count / 3, "round {round}: a wrong sign passes");
+            }
+            // Without its file the tool holds nothing.
+            for (point, found) in points.iter().zip(ask(&document, &points)) {
+                assert_eq!(found.pos_in_rest, *point, "round {round}");
+            }
+        }
+    }
+    println!("{asked} points, {moved} moved, {off_aim} off by more than {AIM}");
+    assert!(moved > asked / 10, "of {asked} points only {moved} move");
 }
 
 /// The sweep of one tool in a box of side 1 about the origin.

@@ -1,11 +1,16 @@
 //! A plain f64 reading of `sweep` (spec/sweepers.md, A), from the JSON of a document and in the words of that page:
 //! exponential and logarithm of 4 × 4 matrices by their series, and an integrator that chooses its own steps.
 
+use std::sync::Arc;
+
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::{Value, json};
 
 /// Error of one step of the integrator, subject units.
 const TOLERANCE: f64 = 1e-9;
+
+/// Distance to a mesh in its own space, its longest side 1.
+pub(crate) type Measured = Arc<dyn Fn(DVec3) -> f64>;
 
 /// One tool with its mirror sign, in metric coordinates of the box.
 struct Tool {
@@ -14,6 +19,8 @@ struct Tool {
     unit: f64,
     coat: f64,
     mirror: DVec3,
+    /// Of a tool that is a mesh.
+    mesh: Option<Measured>,
     poses: Vec<DMat4>,
     logs: Vec<DMat4>,
 }
@@ -217,7 +224,14 @@ impl Tool {
         let pose = exp(log * since) * self.poses[piece];
         let scale = pose.determinant().cbrt();
         let own = pose.inverse().transform_point3(p);
-        let field = mu(scale * distance(&self.shape, self.unit, own) / self.coat);
+        let away = match &self.mesh {
+            Some(measured) => {
+                let longest = number(&self.shape["longest"], 0.4) * self.unit;
+                measured(own / longest) * longest
+            }
+            None => distance(&self.shape, self.unit, own),
+        };
+        let field = mu(scale * away / self.coat);
         let mut velocity = log * (pieces as f64) * p.extend(1.0);
         if is_wrong {
             velocity = -velocity;
@@ -256,6 +270,7 @@ impl Sweep {
                     unit,
                     coat: number(&tool["coat"], 0.25) * unit,
                     mirror: *mirror,
+                    mesh: None,
                     logs: logs.collect(),
                     poses,
                 });
@@ -270,6 +285,18 @@ impl Sweep {
             tools,
             is_wrong: false,
         }
+    }
+
+    /// This one with the distance to the mesh of its tools that are meshes.
+    pub(crate) fn with_mesh(mut self, mesh: &Measured) -> Self {
+        let meshes = self
+            .tools
+            .iter_mut()
+            .filter(|tool| tool.shape["shape"] == json!("mesh"));
+        for tool in meshes {
+            tool.mesh = Some(Arc::clone(mesh));
+        }
+        self
     }
 
     /// The sweeps of a document.

@@ -11,7 +11,7 @@ use super::pen::Pen;
 use super::projection::{Projection, pixels_of};
 use super::tools::{gizmo_name, head_bar};
 use super::ways::paint_way;
-use crate::app::kit::clay_tool::{form_title, way_title};
+use crate::app::kit::clay_tool::{form_title, held_title, own_title, way_title};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, over_picture as ink};
 use crate::app::kit::widget::{self, Named as _};
@@ -21,6 +21,7 @@ use crate::app::session::{
 };
 use crate::app::words::clay::w;
 use crate::app::words::{fill, picture};
+use crate::document::ToolShape;
 use crate::math::Similarity;
 use crate::render::{PendingPick, Pick};
 
@@ -401,6 +402,19 @@ fn ring(view: &Projection, middle: Vec3, radius: f32) -> Vec<Vec3> {
     (0..=48).map(corner).collect()
 }
 
+/// The meshes and baked clays among the tools of the clay, each once.
+fn own_shapes(session: &Session) -> Vec<&ToolShape> {
+    let tools = session.clay().into_iter().flat_map(|clay| &clay.tools);
+    let mut own: Vec<&ToolShape> = Vec::new();
+    for shape in tools.filter_map(|tool| tool.shape.as_ref()) {
+        let is_plain = ToolShape::NAMES.contains(&shape.name());
+        if !is_plain && !own.iter().any(|known| known.is_like(shape)) {
+            own.push(shape);
+        }
+    }
+    own
+}
+
 /// Over the picture while the tool is in hand: what a drag does, form and size of the tool, the mirror across x, and
 /// how to put it away. The panel has the rest.
 pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
@@ -430,7 +444,7 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
     if session.laid().is_some() {
         handles_ui(ui, session.gizmo, form_width, commands);
     } else {
-        form_ui(ui, hand, form_width, commands);
+        form_ui(ui, session, form_width, commands);
     }
     let [x, y, z] = hand.mirror;
     let name = fill(w().mirror, &[&"x"]);
@@ -455,19 +469,29 @@ fn held(hand: ClayHand) -> Command {
 }
 
 /// The form of the tool.
-fn form_ui(ui: &mut Ui, hand: &ClayHand, form_width: f32, commands: &mut Vec<Command>) {
-    let shown = widget::combo("form of strokes", form_title(hand.form), form_width);
+fn form_ui(ui: &mut Ui, session: &Session, form_width: f32, commands: &mut Vec<Command>) {
+    let hand = &session.clay_hand;
+    let shown = widget::combo("form of strokes", &held_title(hand), form_width);
     let shown = shown.show_ui(ui, |ui| {
-        for form in 0..ClayHand::FORMS.len() {
-            if ui
-                .selectable_label(form == hand.form, form_title(form))
-                .clicked()
-            {
-                let hand = ClayHand {
+        let forms = (0..ClayHand::FORMS.len()).map(|form| (form, None));
+        let own = own_shapes(session).into_iter();
+        let own = own.map(|shape| (hand.form, Some(shape)));
+        for (form, own) in forms.chain(own) {
+            let is_held = match (own, &hand.own) {
+                (None, None) => form == hand.form,
+                (Some(one), Some(held)) => held.is_like(one),
+                _ => false,
+            };
+            let title = match own {
+                None => form_title(form).to_owned(),
+                Some(shape) => own_title(shape),
+            };
+            if ui.selectable_label(is_held, title).clicked() {
+                commands.push(held(ClayHand {
                     form,
+                    own: own.cloned(),
                     ..hand.clone()
-                };
-                commands.push(held(hand));
+                }));
             }
         }
     });

@@ -19,6 +19,30 @@ pub(crate) fn way_title(way: StrokeWay) -> (&'static str, &'static str) {
     }
 }
 
+/// What the form in the hand is called.
+pub(crate) fn held_title(hand: &ClayHand) -> String {
+    match &hand.own {
+        Some(own) => own_title(own),
+        None => form_title(hand.form).to_owned(),
+    }
+}
+
+/// What a mesh is called, or the clay after some of its strokes, as a tool.
+pub(crate) fn own_title(shape: &ToolShape) -> String {
+    let kind = names::tool_shape(shape);
+    match shape {
+        ToolShape::Mesh { file, .. } => {
+            let named = (!file.name.is_empty()).then_some(&file.name);
+            named
+                .or(file.src.as_ref())
+                .cloned()
+                .unwrap_or_else(|| kind.to_owned())
+        }
+        ToolShape::Clay { strokes, .. } => format!("{kind} ({strokes})"),
+        _ => kind.to_owned(),
+    }
+}
+
 /// What the form of this index in [`ClayHand::FORMS`] is called.
 pub(crate) fn form_title(form: usize) -> &'static str {
     let name = ClayHand::FORMS.get(form).copied().unwrap_or_default();

@@ -89,6 +89,10 @@ fn hand_ui(ui: &mut Ui, hand: &ClayHand, commands: &mut Vec<Command>) {
     if new != *hand {
         commands.push(Command::Clay(ClayCommand::Hold(new)));
     }
+    let bake = widget::labelled_button(ui, Icon::Copy, w().bake, false, true);
+    if bake.on_hover_text(w().bake_hint).clicked() {
+        commands.push(Command::Clay(ClayCommand::Bake));
+    }
 }
 
 fn detail_ui(ui: &mut Ui, clay: &Clay, commands: &mut Vec<Command>) {

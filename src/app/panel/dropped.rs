@@ -38,10 +38,20 @@ pub(crate) fn ui(ui: &Ui, session: &Session, commands: &mut Vec<Command>) {
                 w().as_object_hint,
                 session.can_take_object(),
             ),
+            (
+                MeshUse::Tool,
+                Icon::Brush,
+                w().as_tool,
+                w().as_tool_hint,
+                session.can_take_tool(),
+            ),
         ];
         // Room for the ring around what has the keyboard.
         ui.add_space(3.0);
-        for (answer, icon, text, hint, is_possible) in answers {
+        let shown = answers
+            .into_iter()
+            .filter(|answer| answer.0 != MeshUse::Tool || session.clay().is_some());
+        for (answer, icon, text, hint, is_possible) in shown {
             let button = widget::labelled_button(ui, icon, text, false, is_possible);
             // The keyboard begins at the first answer.
             if answer == MeshUse::Subject && ui.memory(|memory| memory.focused().is_none()) {

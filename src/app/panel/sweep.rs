@@ -10,7 +10,7 @@ use crate::app::kit::widget::{self, Change, Named as _, NumberRow};
 use crate::app::session::Command;
 use crate::app::words::sweep::w;
 use crate::app::words::{fill, names};
-use crate::displace::{COAT, FARTHEST, LONG, ROUND, SCALE, SOLID};
+use crate::displace::{COAT, FARTHEST, LONG, LONGEST, ROUND, SCALE, SOLID};
 use crate::document::{
     Edit, MAX_KEYS, MAX_TOOLS, PathKey, PlacedTemplate, SweepTool, SweepTools, TemplateData,
     ToolShape,
@@ -256,6 +256,7 @@ fn shape_ui(ui: &mut Ui, shape: &ToolShape) -> Option<Change<ToolShape>> {
             return sides.or(rounded);
         }
         ToolShape::Torus { .. } => &[(w.ring, SOLID), (w.radius, ROUND)],
+        ToolShape::Mesh { .. } | ToolShape::Clay { .. } => &[(w.longest, LONGEST)],
         ToolShape::Curve { points, radius } => {
             let change = length_row(ui, (w.radius, hint), *radius, ROUND)?;
             let points = points.clone();

@@ -69,6 +69,8 @@ pub struct ClayHand {
     pub way: StrokeWay,
     /// Its form, one of [`ClayHand::FORMS`].
     pub form: usize,
+    /// In place of that form, a mesh or the clay as it was, in the size of the hand.
+    pub own: Option<ToolShape>,
     /// Half of its longest side, subject units.
     pub size: f32,
     /// Width of its coating, subject units.
@@ -88,6 +90,7 @@ impl Default for ClayHand {
         Self {
             way: StrokeWay::Move,
             form: 0,
+            own: None,
             size: 0.1,
             coat: 0.1,
             depth: 0.0,
@@ -108,6 +111,12 @@ impl ClayHand {
     pub fn shape(&self) -> ToolShape {
         let size = self.size;
         let part = |part: f32| rounded(part * size);
+        if let Some(mut own) = self.own.clone() {
+            own.numbers_mut()
+                .into_iter()
+                .for_each(|longest| *longest = part(2.0));
+            return own;
+        }
         match Self::FORMS.get(self.form) {
             Some(&"ellipsoid") => ToolShape::Ellipsoid {
                 radii: Vec3::new(part(1.0), part(0.7), part(0.5)),
@@ -132,8 +141,8 @@ impl ClayHand {
     /// however it is turned.
     pub fn pose(&self, touch: &Touch) -> (Vec3, Quat) {
         let own = || Quat::from_rotation_z(self.turn_deg.to_radians());
-        let turn = match self.form {
-            0 => Quat::IDENTITY,
+        let turn = match (self.form, &self.own) {
+            (0, None) => Quat::IDENTITY,
             _ => Quat::from_rotation_arc(Vec3::Z, touch.normal) * own(),
         };
         let depth = self.depth_at(touch.force);
@@ -258,6 +267,8 @@ pub enum ClayCommand {
     Toggle,
     /// Changes the tool in the hand.
     Hold(ClayHand),
+    /// Takes the clay as it stands in hand, as a tool.
+    Bake,
     /// The way of a hand over the clay, as far as it has come.
     Draw {
         /// What the drag does.

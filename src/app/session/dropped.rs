@@ -8,7 +8,9 @@ use super::selection::Selection;
 use super::session::{LoadOf, MeshQuestion, Session, Tab};
 use crate::app::words::objects;
 use crate::data::SubjectFrame;
-use crate::document::{Edit, MAX_MESHES, MAX_OBJECTS, MeshRef, SubjectBox};
+use crate::document::{
+    Clay, Edit, MAX_MESHES, MAX_OBJECTS, MeshRef, SubjectBox, ToolFile, ToolShape,
+};
 
 /// An object farther from the middle of the subject than this is brought before the camera, subject units.
 const FARTHEST: f32 = 1.2;
@@ -62,6 +64,12 @@ impl Session {
         self.object_count() < MAX_OBJECTS
     }
 
+    /// True if the subject is a clay, which may be shaped by one tool more.
+    pub fn can_take_tool(&self) -> bool {
+        let clay = self.clay();
+        clay.is_some_and(|clay| clay.tools.len() < Clay::MAX_TOOLS)
+    }
+
     /// Does with the mesh file what the reader answers.
     pub(super) fn use_mesh(&mut self, answer: MeshUse) {
         let Some(question) = self.mesh_question.take() else {
@@ -92,6 +100,15 @@ impl Session {
                 if self.apply(&Edit::AddMesh { mesh, box_mm }, false) {
                     self.load_subject();
                 }
+            }
+            MeshUse::Tool => {
+                self.effect(Effect::DropMesh);
+                let file = ToolFile {
+                    sha256: Some(sha256),
+                    ..ToolFile::default()
+                };
+                let longest = ToolShape::LONGEST;
+                self.take_own_tool(ToolShape::Mesh { file, longest }, "Add tool");
             }
             MeshUse::Object => {
                 self.effect(Effect::DropMesh);

@@ -9,6 +9,8 @@ pub enum MeshUse {
     Part,
     /// An object beside the subject.
     Object,
+    /// A tool of the clay that is shown.
+    Tool,
     /// Nothing: all stays as it is.
     Nothing,
 }

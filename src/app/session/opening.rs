@@ -91,6 +91,12 @@ impl Session {
         }
     }
 
+    /// Asks for the document's subject although it is there.
+    pub fn ask_for_subject_again(&mut self) {
+        self.requested = None;
+        self.load_subject();
+    }
+
     /// True while an object is seen that is not the document's: that is on its way, or cannot be had.
     pub fn shows_earlier_object(&self) -> bool {
         let is_seen = self.view.subject.is_some();
@@ -240,8 +246,7 @@ impl Session {
             self.notify(Gravity::Warning, w().other_file, details);
         } else if let Some(wanted) = self.illustration().subject.supplied_sha256() {
             if *wanted == sha256 && self.wants_other_frame(&load.reading) {
-                self.requested = None;
-                self.load_subject();
+                self.ask_for_subject_again();
                 return false;
             }
             if *wanted == sha256 {

@@ -15,7 +15,7 @@ use super::tool::Tool;
 use crate::app::words::clay::w;
 use crate::app::words::fill;
 use crate::document::{
-    Camera, Clay, ClayKey, ClayMove, ClayStart, ClayStroke, ClayTool, Edit, SubjectRef,
+    Camera, Clay, ClayKey, ClayMove, ClayStart, ClayStroke, ClayTool, Edit, SubjectRef, ToolShape,
 };
 use crate::math::{Similarity, smooth_path};
 
@@ -72,6 +72,16 @@ impl Session {
             ClayCommand::Toggle if self.tool() == Tool::Clay => self.take_tool(Tool::Look),
             ClayCommand::Toggle => self.take_clay_tool(),
             ClayCommand::Hold(hand) => self.hold_clay_tool(hand),
+            ClayCommand::Bake => {
+                let strokes = self.clay().map_or(0, |clay| clay.strokes.len());
+                self.take_own_tool(
+                    ToolShape::Clay {
+                        strokes: strokes as u32,
+                        longest: ToolShape::LONGEST,
+                    },
+                    "Bake the clay",
+                );
+            }
             ClayCommand::Draw {
                 way,
                 touches,
@@ -90,6 +100,34 @@ impl Session {
             }
             ClayCommand::Select(index) => self.select(Selection::Stroke(index)),
         }
+    }
+
+    /// Puts a mesh, or the clay as it stands, among the tools of the clay and takes it in hand: one step of undo.
+    pub(super) fn take_own_tool(&mut self, shape: ToolShape, name: &str) {
+        let Some(clay) = self.clay().cloned() else {
+            return;
+        };
+        let hand = ClayHand {
+            own: Some(shape),
+            ..self.clay_hand.clone()
+        };
+        let Some((_, tools)) = self.places_of_tools(&clay, clay.strokes.len(), &[hand.tool()])
+        else {
+            return self.tell_of_many_tools();
+        };
+        if let Some(edit) = tools {
+            let (name, edits) = (name.to_owned(), vec![edit]);
+            self.apply(&Edit::All { name, edits }, false);
+        }
+        self.clay_hand = hand;
+        if self.tool() != Tool::Clay {
+            self.take_clay_tool();
+        }
+    }
+
+    fn tell_of_many_tools(&mut self) {
+        let text = fill(w().too_many_tools, &[&Clay::MAX_TOOLS]);
+        self.notify(Gravity::Info, text, "");
     }
 
     /// Takes the tool in hand that shapes the clay. Strokes come after those that are there, so that all have to be
@@ -150,7 +188,7 @@ impl Session {
             return;
         }
         let stroke = stroke(&self.clay_hand, way, touches, &self.camera);
-        let tool = self.clay_hand.tool();
+        let tool = self.tool_in_hand();
         if self.together.is_on && way != StrokeWay::Smooth {
             let way = stroke.and_then(|stroke| stroke.moves.into_iter().next());
             if let Some(way) = way.filter(|_| is_over) {
@@ -180,8 +218,7 @@ impl Session {
         };
         let index = drawn.unwrap_or(clay.strokes.len());
         let Some((places, list)) = self.places_of_tools(&clay, index, tools) else {
-            let text = fill(w().too_many_tools, &[&Clay::MAX_TOOLS]);
-            self.notify(Gravity::Info, text, "");
+            self.tell_of_many_tools();
             return false;
         };
         for one in &mut stroke.moves {
@@ -206,8 +243,19 @@ impl Session {
         is_done
     }
 
+    /// The tool in hand, for the stroke to come. One that was made of strokes which are gone is put away.
+    fn tool_in_hand(&mut self) -> ClayTool {
+        let count = self.clay().map_or(0, |clay| clay.strokes.len());
+        let next = self.drawn_stroke.unwrap_or(count);
+        if !self.clay_hand.tool().is_made_before(next) {
+            self.clay_hand.own = None;
+        }
+        self.clay_hand.tool()
+    }
+
     /// The places of tools in the clay's list, and the edit that puts those there that have none yet: in place of some
-    /// that no other stroke than that of the index uses, or behind the others. `None` if all places are taken.
+    /// that no other stroke than that of the index uses, or behind the others. A mesh and a baked clay give way to their
+    /// own kind alone. `None` if all places are taken.
     fn places_of_tools(
         &self,
         clay: &Clay,
@@ -228,7 +276,12 @@ impl Session {
         let mut places = Vec::with_capacity(tools.len());
         for tool in tools {
             let known = held.iter().position(|other| other == tool);
-            let is_free = |i: &usize| held[*i].shape.is_some() && !used.contains(i);
+            let gives_way = |shape: &ToolShape| {
+                let is_plain = ToolShape::NAMES.contains(&shape.name());
+                is_plain || tool.shape.as_ref().is_some_and(|new| new.is_like(shape))
+            };
+            let is_free =
+                |i: &usize| held[*i].shape.as_ref().is_some_and(gives_way) && !used.contains(i);
             let free = || (0..held.len()).find(is_free);
             let index = known.or_else(free).unwrap_or(held.len());
             if index >= Clay::MAX_TOOLS {
@@ -609,6 +662,49 @@ mod tests {
                 .shown()
                 .any(|notice| notice.message.contains("16"))
         );
+    }
+
+    #[test]
+    fn a_baked_clay_is_a_tool_in_the_hand_and_one_step_of_undo() {
+        let mut session = session();
+        draw(&mut session, StrokeWay::Move, &arc(), true);
+        session.run(Command::Clay(ClayCommand::Bake), 0.0);
+        let baked = |strokes, longest| Some(ToolShape::Clay { strokes, longest });
+        let tools = |session: &Session| {
+            let clay = session.clay().expect("a clay");
+            let shapes = clay.tools.iter().map(|tool| tool.shape.clone());
+            shapes.collect::<Vec<_>>()
+        };
+        let listed = tools(&session);
+        assert_eq!(listed[1..], [baked(1, 0.2)]);
+        assert_eq!(
+            session.clay_hand.shape(),
+            listed[1].clone().expect("a tool")
+        );
+        // In another size it takes the place of what no stroke uses; a plain tool does not.
+        let mut hand = session.clay_hand.clone();
+        hand.size = 0.15;
+        session.run(Command::Clay(ClayCommand::Hold(hand.clone())), 0.0);
+        draw(&mut session, StrokeWay::Move, &arc(), true);
+        assert_eq!(tools(&session)[1..], [baked(1, 0.3)]);
+        let stroke = &session.clay().expect("a clay").strokes[1];
+        assert_eq!(stroke.moves[0].tool, 1);
+        session.run(Command::Clay(ClayCommand::Bake), 0.0);
+        let plain = ClayHand { own: None, ..hand };
+        session.run(Command::Clay(ClayCommand::Hold(plain)), 0.0);
+        draw(&mut session, StrokeWay::Move, &arc(), true);
+        assert_eq!(tools(&session)[1..3], [baked(1, 0.3), baked(2, 0.3)]);
+        assert_eq!(tools(&session).len(), 4);
+        for _ in 0..2 {
+            session.run(Command::Undo, 0.0);
+        }
+        assert_eq!(tools(&session).len(), 2, "the stroke, then what was baked");
+        // Without the strokes that it is made of the hand holds its plain form.
+        session.run(Command::Clay(ClayCommand::Bake), 0.0);
+        session.run(Command::Clay(ClayCommand::Remove(1)), 0.0);
+        draw(&mut session, StrokeWay::Move, &arc(), true);
+        assert_eq!(session.clay_hand.own, None);
+        assert_eq!(session.clay().expect("a clay").strokes[1].moves[0].tool, 3);
     }
 
     #[test]

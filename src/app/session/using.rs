@@ -130,7 +130,10 @@ impl Session {
     /// Where tissue of the untouched subject is in what the document holds: of a clay in its starting shape.
     fn at_start(&self, place: Vec3) -> Vec3 {
         match &self.shown_subject {
-            Some(SubjectRef::Clay(clay)) => Way::of(clay).back_of(place.as_dvec3()).as_vec3(),
+            Some(SubjectRef::Clay(clay)) => {
+                let way = Way::of(clay, &self.view.grids);
+                way.back_of(place.as_dvec3()).as_vec3()
+            }
             _ => place,
         }
     }

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 
 use super::figure::FigureView;
 use super::measures::Measures;
-use crate::data::{Segment, Subject, SubjectFrame};
+use crate::data::{Grids, Segment, Subject, SubjectFrame};
 use crate::document::ObjectSource;
 use crate::math::Aabb;
 
@@ -179,6 +179,8 @@ pub struct ViewState {
     pub subject_revision: u64,
     /// The frames of the meshes of objects that have come, by where each comes from.
     pub object_frames: Vec<(ObjectSource, SubjectFrame)>,
+    /// The grids of the tools that are there, of a clay those with which captions go.
+    pub grids: Grids,
     /// The figure that is shown, as it is made.
     pub figure: FigureView,
 }

@@ -25,6 +25,8 @@ words! {
         acts: "Handles act", "Griffe wirken", "Los tiradores actúan", "手柄起作用";
         acts_hint: "Handles act: each drag of one shapes the clay by the tool on its way; otherwise they only place it", "Griffe wirken: jedes Ziehen formt den Ton mit dem Werkzeug auf seinem Weg; sonst legen sie es nur zurecht", "Los tiradores actúan: cada arrastre modela la arcilla con el instrumento por su camino; si no, solo lo colocan", "手柄起作用：每次拖动都让器械沿途塑形；否则只摆放器械";
         form: "Form of the tool", "Form des Werkzeugs", "Forma del instrumento", "器械的形状";
+        bake: "Bake the clay", "Ton backen", "Cocer la arcilla", "烘焙黏土";
+        bake_hint: "The clay as it stands becomes a tool in the hand", "Der Ton, wie er jetzt ist, wird ein Werkzeug in der Hand", "La arcilla tal como está se vuelve un instrumento en la mano", "当前的黏土成为手中的器械";
         size: "Size", "Größe", "Tamaño", "大小";
         size_hint: "Half the length of the tool; [ and ], or F held and the pointer or the wheel", "Halbe Länge des Werkzeugs; [ und ] oder F halten und Zeiger oder Rad bewegen", "Mitad de la longitud del instrumento; [ y ], o F pulsada y el puntero o la rueda", "器械长度的一半；[ 和 ]，或按住 F 移动指针或滚动滚轮";
         coat: "Coating", "Mantel", "Recubrimiento", "影响层";

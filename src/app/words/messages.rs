@@ -23,6 +23,7 @@ words! {
         picture_failed: "The picture could not be made", "Das Bild konnte nicht erzeugt werden", "No se pudo crear la imagen", "无法生成图片";
         device_lost: "The graphics device was lost. Your work is kept: copy the link, or start again", "Das Grafikgerät ging verloren. Die Arbeit ist erhalten: Link kopieren oder neu starten", "Se perdió el dispositivo gráfico. Su trabajo se conserva: copie el enlace o reinicie", "图形设备已丢失。您的工作已保留：请复制链接，或重新启动";
         more_notices: "{0} (and {1} more)", "{0} (und {1} weitere)", "{0} (y {1} más)", "{0}（另有 {1} 条）";
+        no_tool: "The mesh of a tool has to be OBJ, STL, PLY or GLB", "Das Netz eines Werkzeugs muss OBJ, STL, PLY oder GLB sein", "La malla de un instrumento tiene que ser OBJ, STL, PLY o GLB", "器械的网格必须是 OBJ、STL、PLY 或 GLB";
         no_mesh: "A mesh of the subject has to be OBJ, STL, PLY or GLB", "Ein Netz des Objekts muss OBJ, STL, PLY oder GLB sein", "Una malla del objeto tiene que ser OBJ, STL, PLY o GLB", "对象的网格必须是 OBJ、STL、PLY 或 GLB";
         no_object: "An object has to be a surface mesh: OBJ, STL, PLY or GLB", "Ein Gegenstand muss ein Oberflächennetz sein: OBJ, STL, PLY oder GLB", "Un objeto tiene que ser una malla: OBJ, STL, PLY o GLB", "物体必须是表面网格：OBJ、STL、PLY 或 GLB";
         not_drawn_yet: "{0}: kept in the document, but not drawn yet", "{0}: im Dokument behalten, aber noch nicht gezeichnet", "{0}: se conserva en el documento, pero aún no se dibuja", "{0}：已保留在文档中，但尚未绘制";

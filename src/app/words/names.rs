@@ -303,6 +303,8 @@ pub(crate) fn tool_shape(shape: &ToolShape) -> &'static str {
         ToolShape::Box { .. } => w.block,
         ToolShape::Torus { .. } => w.torus,
         ToolShape::Curve { .. } => w.curve,
+        ToolShape::Mesh { .. } => w.mesh,
+        ToolShape::Clay { .. } => w.baked,
     }
 }
 

@@ -49,6 +49,7 @@ words! {
         object_missing: "Earlier picture: the scan of this document is not here", "Früheres Bild: der Scan dieses Dokuments ist nicht da", "Imagen anterior: falta el estudio de este documento", "先前的图像：缺少此文档的扫描";
         coarse: "Coarse for now: the fine picture is on its way", "Vorerst grob: das feine Bild folgt", "De momento sin detalle: la imagen fina está en camino", "暂为粗略图像：精细图像即将就绪";
         segments_coming: "Provisional: the label file is still loading", "Vorläufig: die Datei mit Segmenten wird noch geladen", "Provisional: el archivo de etiquetas aún se está cargando", "暂定图像：标签文件仍在载入";
+        tool_coming: "Provisional: the mesh of a tool is still loading", "Vorläufig: das Netz eines Werkzeugs wird noch geladen", "Provisional: la malla de un instrumento aún se está cargando", "暂定图像：器械的网格仍在加载";
         mesh_coming: "Provisional: a mesh beside the scan is still loading", "Vorläufig: ein Netz neben dem Scan wird noch geladen", "Provisional: una malla junto al escáner aún se está cargando", "暂定图像：扫描旁的网格仍在载入";
         object_coming: "Provisional: an object is still loading", "Vorläufig: ein Gegenstand wird noch geladen", "Provisional: un objeto aún se está cargando", "暂定图像：物体仍在载入";
         field_coming: "Provisional: a displacement field is still loading", "Vorläufig: ein Verschiebungsfeld wird noch geladen", "Provisional: un campo de desplazamiento aún se está cargando", "暂定图像：位移场仍在载入";

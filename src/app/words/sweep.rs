@@ -16,6 +16,9 @@ words! {
         block: "Block", "Klotz", "Bloque", "块";
         torus: "Ring", "Ring", "Anillo", "环";
         curve: "Curve", "Kurve", "Curva", "曲线";
+        mesh: "Mesh", "Netz", "Malla", "网格";
+        baked: "Baked clay", "Gebackener Ton", "Arcilla cocida", "烘焙的黏土";
+        longest: "Longest side", "Längste Seite", "Lado más largo", "最长边";
         radius: "Radius", "Radius", "Radio", "半径";
         radii: "Half axes", "Halbachsen", "Semiejes", "半轴";
         length: "Length", "Länge", "Longitud", "长度";

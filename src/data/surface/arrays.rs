@@ -8,6 +8,7 @@ use glam::{DAffine3, UVec3, Vec2, Vec3};
 
 use super::carver::{Carver, CarverLevel};
 use super::field::{FIELD_MARGIN, SurfaceField};
+use super::grid::DistanceGrid;
 use super::textures::{SurfacePicture, SurfaceTextures};
 use super::tree::{Tree, TreeNode};
 use super::triangle::Triangle;
@@ -54,6 +55,10 @@ pub struct SurfaceArrays {
     pub carver_levels: Vec<u32>,
     /// Of an object that carves: the nodes of its levels.
     pub carver_texels: Vec<u32>,
+    /// Of each grid of distances the strokes, the nodes along the axes, and 1 if it is open.
+    pub grid_sides: Vec<u32>,
+    /// The nodes of all grids of distances.
+    pub grid_values: Vec<f32>,
 }
 
 impl SurfaceArrays {
@@ -119,6 +124,12 @@ impl SurfaceArrays {
             }
             arrays.carver_texels.clone_from(&carver.texels);
         }
+        for (strokes, grid) in &surface.grids {
+            arrays.grid_sides.push(*strokes);
+            arrays.grid_sides.extend(grid.nodes().to_array());
+            arrays.grid_sides.push(grid.is_open().into());
+            arrays.grid_values.extend(grid.values());
+        }
         arrays
     }
 
@@ -151,12 +162,31 @@ impl SurfaceArrays {
         })
     }
 
+    /// The grids of distances of the arrays, if they are whole.
+    fn grids(&self) -> Option<Vec<(u32, Arc<DistanceGrid>)>> {
+        let (sides, []) = self.grid_sides.as_chunks::<5>() else {
+            return None;
+        };
+        let mut values = self.grid_values.as_slice();
+        let mut grid_of = |&[strokes, x, y, z, is_open]: &[u32; 5]| {
+            let nodes = UVec3::new(x, y, z);
+            let count = usize::try_from(nodes.as_u64vec3().element_product()).ok()?;
+            let (own, rest) = values.split_at_checked(count)?;
+            values = rest;
+            let grid = DistanceGrid::from_parts(nodes, own.to_vec(), is_open != 0)?;
+            Some((strokes, Arc::new(grid)))
+        };
+        let grids: Option<Vec<_>> = sides.iter().map(&mut grid_of).collect();
+        grids.filter(|_| values.is_empty())
+    }
+
     /// The surface of the arrays; `None` if they are not those of a surface.
     pub fn into_surface(mut self) -> Option<Surface> {
         let carver = match self.carver_numbers.is_empty() {
             true => None,
             false => Some(Arc::new(self.carver()?)),
         };
+        let grids = self.grids()?;
         let (places, opacities) = self.places.split_at_checked(24)?;
         let places = places.as_chunks::<12>().0;
         let [world_from_voxel, rest_from_voxel] =
@@ -271,6 +301,7 @@ impl SurfaceArrays {
             segments,
             segmentation,
             carver,
+            grids,
         })
     }
 }
@@ -362,7 +393,11 @@ mod tests {
         };
         let carving = surface.clone().carving(&mut |_| true).expect("not stopped");
         assert!(carving.carver.is_some());
-        for surface in [&surface, &plain, &carving] {
+        let sweeping = surface
+            .clone()
+            .sweeping(&mut |_| true)
+            .expect("not stopped");
+        for surface in [&surface, &plain, &carving, &sweeping] {
             let arrays = SurfaceArrays::of(surface);
             assert_eq!(arrays.into_surface().as_ref(), Some(surface));
         }
@@ -414,6 +449,18 @@ mod tests {
             let mut short = arrays.clone();
             cut(&mut short);
             assert_eq!(short.into_surface(), None, "cut {number} of what carves");
+        }
+        let of_tool = SurfaceArrays::of(&sweeping);
+        let cuts: [&dyn Fn(&mut SurfaceArrays); 4] = [
+            &|arrays| arrays.grid_values.truncate(7),
+            &|arrays| arrays.grid_values.push(0.0),
+            &|arrays| arrays.grid_sides.truncate(4),
+            &|arrays| arrays.grid_sides[1] = u32::MAX,
+        ];
+        for (number, cut) in cuts.iter().enumerate() {
+            let mut short = of_tool.clone();
+            cut(&mut short);
+            assert_eq!(short.into_surface(), None, "cut {number} of a grid");
         }
         let without = SurfaceArrays {
             carver_numbers: Vec::new(),

@@ -6,6 +6,7 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use super::carver::Carver;
 use super::field::{FIELD_MARGIN, FieldMaker, SurfaceField, times_inside, voxels_of};
+use super::grid::DistanceGrid;
 use super::lids::{MAX_TRIANGLES, lids_of};
 use super::normals::corner_normals;
 use super::textures::{SurfaceTextures, placed};
@@ -59,6 +60,9 @@ pub struct Surface {
     pub segmentation: Segmentation,
     /// What a template `carve` reads of it; `None` of a surface that no template carves by.
     pub carver: Option<Arc<Carver>>,
+    /// Of the mesh of a tool its grid of distances; of a clay those of itself after the strokes (the numbers) that its
+    /// tools are made of.
+    pub grids: Vec<(u32, Arc<DistanceGrid>)>,
 }
 
 /// What a named part of the mesh is, apart from its triangles.
@@ -214,6 +218,7 @@ impl Surface {
             segments,
             segmentation,
             carver: None,
+            grids: Vec::new(),
         })
     }
 

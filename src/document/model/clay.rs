@@ -4,7 +4,7 @@
 use super::clay_volume::{ClayFile, ClayVolume, VoxelSource};
 use super::mesh::{MeshParts, MeshReading, MeshRef};
 use super::reading::Reading;
-use crate::displace::ToolShape;
+use crate::displace::{ToolFile, ToolShape};
 use std::sync::Arc;
 
 /// A clay as its document describes it. Lengths are subject units: 1 is the longest side of the starting shape.
@@ -95,6 +95,12 @@ impl Clay {
             ClayStart::Volume(volume) => Some(volume),
             ClayStart::Shape(_) | ClayStart::Mesh(_) | ClayStart::Unknown(_) => None,
         }
+    }
+
+    /// The files of its tools that are meshes.
+    pub fn tool_files(&self) -> impl Iterator<Item = &ToolFile> {
+        let shapes = self.tools.iter().filter_map(|tool| tool.shape.as_ref());
+        shapes.filter_map(ToolShape::file)
     }
 
     /// This clay with another file in place of what it begins with, read as that was: a scan in place of voxels, else a
@@ -197,6 +203,16 @@ pub struct ClayTool {
     pub shape: Option<ToolShape>,
     /// Width of its coating.
     pub coat: f64,
+}
+
+impl ClayTool {
+    /// True if it is there before the stroke of this index: what is baked is, if it is made of earlier strokes alone.
+    pub fn is_made_before(&self, stroke: usize) -> bool {
+        match self.shape {
+            Some(ToolShape::Clay { strokes, .. }) => strokes as usize <= stroke,
+            _ => true,
+        }
+    }
 }
 
 impl Default for ClayTool {

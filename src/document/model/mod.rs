@@ -20,8 +20,9 @@ mod surface;
 mod template;
 
 pub use crate::displace::{
-    ControlPoint, ControlPoints, MAX_KEYS, MAX_PARAM_FLOATS, MAX_TOOLS, ParamKind, ParamSpec,
-    ParamValue, PathKey, SweepTool, SweepTools, TemplateKind, TemplateSpec, ToolShape,
+    ControlPoint, ControlPoints, MAX_GRIDS, MAX_KEYS, MAX_PARAM_FLOATS, MAX_TOOLS, ParamKind,
+    ParamSpec, ParamValue, PathKey, SweepTool, SweepTools, TemplateKind, TemplateSpec, ToolFile,
+    ToolShape,
 };
 pub use clay::{Clay, ClayKey, ClayMove, ClayShape, ClayStart, ClayStroke, ClayTool};
 pub use clay_volume::{ClayFile, ClayVolume, VoxelPart, VoxelSource};
@@ -46,4 +47,4 @@ pub use template::{
     Align, Constrain, ConstrainBy, FieldRef, FoundObject, NotCarving, ObjectRef, PlacedTemplate,
     TemplateData, TemplateMode, keep_set, keep_sets,
 };
-pub(in crate::document) use template::{join_objects, limit_sweeps};
+pub(in crate::document) use template::{join_objects, limit_grids, limit_sweeps};

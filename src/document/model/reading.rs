@@ -18,6 +18,8 @@ pub struct Reading {
     pub meshes: Vec<MeshRef>,
     /// True for the mesh of an object by which a template carves: what that takes is made besides.
     pub carves: bool,
+    /// True for the mesh of a tool: its grid of distances is made besides.
+    pub sweeps: bool,
 }
 
 /// The layout of a file that holds bare voxels, as its author describes it.

@@ -1,10 +1,11 @@
 //! A placed template and everything that belongs to it.
 
+use super::clay::Clay;
 use super::curve::Curve;
 use super::object::{ObjectPlacement, ObjectSource, SceneObject};
 use crate::displace::{
-    Amount, ControlPoints, Holds, MAX_PIECES, MAX_SWEEP_STEPS, MOST_STEPS, ParamValue, Shrinking,
-    SweepTools, Sweeping, TemplateKind,
+    Amount, ControlPoints, Holds, MAX_GRIDS, MAX_PIECES, MAX_SWEEP_STEPS, MOST_STEPS, ParamValue,
+    Shrinking, SweepTools, Sweeping, TemplateKind, ToolShape,
 };
 use crate::document::limits::MAX_CARVERS;
 use crate::math::{Bent, Placement};
@@ -407,6 +408,42 @@ pub(in crate::document) fn limit_sweeps(templates: &mut [PlacedTemplate]) -> Vec
     for (template, count) in templates.iter_mut().zip(counts) {
         if let TemplateData::Tools(tools) = &mut template.data {
             tools.most_steps = (MOST_STEPS * count).div_ceil(used[1].max(1));
+        }
+    }
+    over
+}
+
+/// Leaves out the tools with which a document would have more different meshes as tools than it may; those of a clay
+/// come first. Says which, by the index of their template and their own.
+pub(in crate::document) fn limit_grids(
+    templates: &mut [PlacedTemplate],
+    clay: Option<&Clay>,
+) -> Vec<[usize; 2]> {
+    let of_clay = clay.iter().flat_map(|clay| &clay.tools);
+    let of_clay = of_clay.filter_map(|tool| tool.shape.as_ref()?.file()?.key());
+    let mut known: Vec<String> = of_clay.map(str::to_owned).collect();
+    known.sort();
+    known.dedup();
+    let mut over = Vec::new();
+    for template in templates {
+        let TemplateData::Tools(tools) = &mut template.data else {
+            continue;
+        };
+        for tool in &mut tools.tools {
+            let Some(ToolShape::Mesh { file, .. }) = &mut tool.shape else {
+                continue;
+            };
+            file.is_left_out = false;
+            let Some(key) = file.key().map(str::to_owned) else {
+                continue;
+            };
+            if !known.contains(&key) {
+                file.is_left_out = known.len() == MAX_GRIDS;
+                match file.is_left_out {
+                    true => over.push([template.index, tool.index]),
+                    false => known.push(key),
+                }
+            }
         }
     }
     over

@@ -47,8 +47,11 @@ impl Reader {
             tools.push(ClayTool::default());
         }
         let mut strokes = Vec::new();
-        for stroke in object.children("strokes")? {
-            strokes.push(self.clay_stroke(&stroke?, tools.len())?);
+        for (index, stroke) in object.children("strokes")?.enumerate() {
+            let stroke = stroke?;
+            let read = self.clay_stroke(&stroke, tools.len())?;
+            self.note_made_of_itself(&stroke, index, &read, &tools);
+            strokes.push(read);
         }
         Ok(Clay {
             from,
@@ -170,6 +173,27 @@ impl Reader {
             shape: self.shape_of_tool(object, ClayTool::default().shape)?,
             coat: self.exact(object, "coat")?,
         })
+    }
+
+    /// Says of the stroke of this index which of its tools are made of it or of later strokes.
+    fn note_made_of_itself(
+        &mut self,
+        object: &Object<'_>,
+        index: usize,
+        stroke: &ClayStroke,
+        tools: &[ClayTool],
+    ) {
+        for (i, one) in stroke.moves.iter().enumerate() {
+            let tool = tools.get(one.tool);
+            if tool.is_some_and(|tool| !tool.is_made_before(index)) {
+                let at = match i {
+                    0 => object.at("tool"),
+                    _ => format!("{}/{}/tool", object.at("with"), i - 1),
+                };
+                let what = "a stroke by a tool that is made of it or of later strokes is";
+                self.note(at, NoticeKind::NotDrawn { what });
+            }
+        }
     }
 
     /// A stroke of a clay with so many tools.

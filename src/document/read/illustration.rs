@@ -4,8 +4,8 @@ use super::object::{Object, wrong};
 use super::reader::Reader;
 use crate::document::limits::{FORMAT, MAX_FIELDS, MAX_KEEP_SETS};
 use crate::document::model::{
-    Camera, Caption, FIGURE_FRONT, Illustration, PlacedTemplate, Step, TemplateData, join_objects,
-    keep_sets, limit_sweeps,
+    Camera, Caption, FIGURE_FRONT, Illustration, PlacedTemplate, Step, SubjectRef, TemplateData,
+    join_objects, keep_sets, limit_grids, limit_sweeps,
 };
 use crate::document::schema::ROOT;
 use crate::document::text::json::number_text;
@@ -67,6 +67,15 @@ impl Reader {
         for index in limit_sweeps(&mut templates) {
             let what = "sweeps with more than 256 pieces of paths or 1,024 steps in all are";
             self.note(format!("/templates/{index}"), NoticeKind::NotDrawn { what });
+        }
+        let clay = match &subject {
+            SubjectRef::Clay(clay) => Some(&**clay),
+            _ => None,
+        };
+        for [template, tool] in limit_grids(&mut templates, clay) {
+            let what = "more than sixteen different meshes as tools are";
+            let at = format!("/templates/{template}/params/tools/{tool}");
+            self.note(at, NoticeKind::NotDrawn { what });
         }
         let is_field = |t: &&PlacedTemplate| matches!(t.data, TemplateData::Field(_)) && t.enabled;
         if let Some(over) = templates.iter().filter(is_field).nth(MAX_FIELDS) {

@@ -117,6 +117,7 @@ impl Reader {
             bounds: self.subject_box(object)?,
             meshes: Vec::new(),
             carves: false,
+            sweeps: false,
         })
     }
 

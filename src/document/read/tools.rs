@@ -2,7 +2,9 @@
 
 use super::object::{Object, numbers, wrong};
 use super::reader::Reader;
-use crate::displace::{LONG, PathKey, ROUND, SOLID, SweepTool, SweepTools, ToolShape};
+use crate::displace::{
+    LONG, LONGEST, PathKey, ROUND, SOLID, SweepTool, SweepTools, ToolFile, ToolShape,
+};
 use crate::document::schema::{Kind, MAX_PAIR};
 use crate::document::text::pointer::join;
 use crate::document::text::{DocumentError, NoticeKind};
@@ -76,7 +78,11 @@ impl Reader {
         let mut shape = ball;
         let name = object.text("shape")?.unwrap_or(ToolShape::NAMES[0]);
         if name != ToolShape::NAMES[0] {
-            shape = ToolShape::named(name);
+            let is_known = match object.kind("shape") {
+                Kind::Name(names) => names.contains(&name),
+                _ => false,
+            };
+            shape = ToolShape::named(name).filter(|_| is_known);
         }
         match &mut shape {
             Some(shape) => {
@@ -120,7 +126,32 @@ impl Reader {
                 self.extent(object, "radius", radius, ROUND)?;
                 self.tool_points(object, points)
             }
+            ToolShape::Mesh { file, longest } => {
+                self.extent(object, "longest", longest, LONGEST)?;
+                *file = self.tool_file(object)?;
+                Ok(())
+            }
+            ToolShape::Clay { strokes, longest } => {
+                self.extent(object, "longest", longest, LONGEST)?;
+                *strokes = self.count(object, "strokes")?;
+                Ok(())
+            }
         }
+    }
+
+    /// The file of a tool that is a mesh; a notice says if none is named.
+    fn tool_file(&mut self, object: &Object<'_>) -> Result<ToolFile, DocumentError> {
+        let file = ToolFile {
+            src: object.text("src")?.map(str::to_owned),
+            sha256: object.hash()?,
+            name: object.string("name")?,
+            is_left_out: false,
+        };
+        if file.key().is_none() {
+            let what = "a mesh of which no file is named is";
+            self.note(object.pointer.clone(), NoticeKind::NotDrawn { what });
+        }
+        Ok(file)
     }
 
     /// A number of a shape; its default is what is there.

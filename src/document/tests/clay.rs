@@ -49,7 +49,8 @@ fn everything() -> Value {
             { "radius": 0.2, "coat": 0.05 },
             { "shape": "box", "half": [0.1, 0.2, 0.3], "round": 0.05 },
             { "shape": "capsule", "radius": 0.1, "length": 0.5, "coat": 1.5, "x-later": [1] },
-            { "shape": "mesh", "src": "tooth.stl", "longest": 0.3 }],
+            { "shape": "mesh", "src": "tooth.stl", "longest": 0.3 },
+            { "shape": "clay", "strokes": 1, "longest": 0.25 }],
         "strokes": [
             { "tool": 1, "path": [0, 350, 620, 0, -20, -140, 5, 5, 5], "turns": [0, 0, 90, -10, 0, 0], "scales": [50, 200],
                 "straight": true, "mirror": "xz", "with": [{ "tool": 2, "path": [1, 2, 3], "turns": [1, 2, 3], "scales": [80] }] },
@@ -403,18 +404,21 @@ fn what_else_a_subject_names_is_left_aside() {
 fn values_out_of_range_are_drawn_at_its_end_and_named() {
     let document = right(
         json!({ "detail": 5, "tools": [{ "radius": 9, "coat": 0 }, { "shape": "clay", "strokes": 12 },
-            { "shape": "mesh", "src": "a.stl" }],
+            { "shape": "mesh", "src": "a.stl" }, { "shape": "cloud" }, { "shape": "clay", "strokes": 5000, "longest": 0 }],
         "strokes": [
             { "path": [20000, 0, -1e300, -30000, 0, 0], "turns": [300, -400, 0], "scales": [1, 1e9], "mirror": "xq" },
-            { "path": [0, 0, 0], "tool": 9, "strength": 200, "do": "smooth", "later": 1 }] }),
+            { "path": [0, 0, 0], "tool": 9, "strength": 200, "do": "smooth", "later": 1 },
+            { "path": [0, 0, 0], "tool": 2, "with": [{ "tool": 1, "path": [0, 0, 0] }] }] }),
     );
     let said = notices(&document);
     for part in [
         "detail: 5",
         "tools/0/radius: 9",
         "tools/0/coat: 0",
-        "tools/1/shape: this version does not know “clay”",
-        "tools/2/shape: this version does not know “mesh”",
+        "tools/3/shape: this version does not know “cloud”",
+        "tools/4/strokes: 5000",
+        "tools/4/longest: 0",
+        "strokes/2/with/0/tool: a stroke by a tool that is made of it or of later strokes",
         "strokes/0/path/0: 20000",
         "strokes/0/path/2: -",
         "strokes/0/path/3: -30000",
@@ -432,10 +436,15 @@ fn values_out_of_range_are_drawn_at_its_end_and_named() {
             "{part}: {said:#?}"
         );
     }
-    assert_eq!(said.len(), 15, "{said:#?}");
+    assert_eq!(said.len(), 17, "{said:#?}");
     let made = clay(&document);
     assert_eq!((made.detail, made.tools[0].coat), (0.1, 0.01));
-    assert!(made.tools[1].shape.is_none() && made.tools[2].shape.is_none());
+    let baked = ToolShape::Clay {
+        strokes: 12,
+        longest: 0.4,
+    };
+    assert_eq!(made.tools[1].shape, Some(baked));
+    assert!(made.tools[3].shape.is_none());
     assert_eq!(
         made.strokes[0].moves[0].keys,
         [

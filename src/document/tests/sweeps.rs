@@ -2,7 +2,7 @@
 
 use crate::displace::MOST_STEPS;
 use crate::document::{
-    Document, Edit, PlacedTemplate, Plane, SweepTools, TemplateData, ToolShape, mirror,
+    Document, Edit, PlacedTemplate, Plane, SweepTools, TemplateData, ToolFile, ToolShape, mirror,
 };
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
@@ -84,7 +84,6 @@ fn values_out_of_range_are_drawn_at_its_end_and_named() {
     for part in [
         "tools/0/radius",
         "tools/0/coat",
-        "tools/1/shape",
         "tools/2/round",
         "tools/3/points/1",
         "tools/3/path/0/scale",
@@ -97,7 +96,14 @@ fn values_out_of_range_are_drawn_at_its_end_and_named() {
     }
     let held = tools(&document);
     assert_eq!(held.tools.len(), 4);
-    assert_eq!(held.tools[1].shape, None, "a mesh is not drawn yet");
+    let mesh = ToolShape::Mesh {
+        file: ToolFile {
+            src: Some("a.stl".to_owned()),
+            ..ToolFile::default()
+        },
+        longest: 1.0,
+    };
+    assert_eq!(held.tools[1].shape, Some(mesh));
     assert_eq!(
         held.tools[2].shape,
         Some(ToolShape::Box {
@@ -105,8 +111,109 @@ fn values_out_of_range_are_drawn_at_its_end_and_named() {
             round: 0.1
         })
     );
-    // What is not drawn is kept.
     assert!(document.to_json_compact().contains(r#""longest":1"#));
+}
+
+#[test]
+fn meshes_as_tools_are_read_limited_and_written() {
+    let hash = "AB".repeat(32);
+    let document = read(json!({ "tools": [
+        { "shape": "mesh", "sha256": hash, "name": "tooth" }, { "shape": "mesh", "longest": 9 },
+        { "shape": "clay", "strokes": 3, "later": 1 }] }))
+    .expect("right");
+    let said = notices(&document).join("\n");
+    for part in [
+        "tools/1: a mesh of which no file is named",
+        "tools/1/longest: 9",
+        "tools/2/shape",
+    ] {
+        assert!(said.contains(part), "{part} in {said}");
+    }
+    let held = tools(&document);
+    let file = |i: usize| held.tools[i].shape.as_ref().and_then(ToolShape::file);
+    let named = file(0).expect("a mesh");
+    assert_eq!(named.key(), Some(&*"ab".repeat(32)));
+    assert_eq!((named.name.as_str(), &named.src), ("tooth", &None));
+    assert_eq!(
+        held.tools[0].shape.as_ref().map(ToolShape::numbers),
+        Some(vec![0.4])
+    );
+    assert_eq!(file(1).expect("a mesh").key(), None);
+    assert_eq!(held.tools[2].shape, None, "a sweep knows no clay");
+    // Written by an edit as it was read; another shape has no file.
+    let mut other = held.clone();
+    other.tools[0].coat = 0.5;
+    other.tools[1].shape = ToolShape::named("ball");
+    let edit = Edit::SetTools {
+        template: 0,
+        tools: other.clone(),
+    };
+    let after = edit.apply(&document).expect("it takes them");
+    assert_eq!(tools(&after), &other);
+    let text = after.to_json_compact();
+    assert!(
+        text.contains(r#""name":"tooth""#) && text.contains(r#""later":1"#),
+        "{text}"
+    );
+    // A mesh has no mirror image that a document could name.
+    let template = &document.illustration().templates[0];
+    assert_eq!(mirror(template, Plane::Sagittal, true), []);
+}
+
+#[test]
+fn what_is_no_file_of_a_tool_is_refused_by_its_pointer() {
+    for (tool, at) in [
+        (json!({ "shape": "mesh", "src": 3 }), "/tools/0/src"),
+        (
+            json!({ "shape": "mesh", "sha256": "abc" }),
+            "/tools/0/sha256",
+        ),
+        (
+            json!({ "shape": "mesh", "src": "a.stl", "name": [] }),
+            "/tools/0/name",
+        ),
+        (
+            json!({ "shape": "mesh", "src": "a.stl", "longest": null }),
+            "/tools/0/longest",
+        ),
+    ] {
+        let error = read(json!({ "tools": [tool] }))
+            .expect_err("wrong")
+            .to_string();
+        assert!(error.contains(at), "{error}");
+    }
+}
+
+#[test]
+fn the_seventeenth_mesh_is_left_out_and_named() {
+    let sweep = |from: usize| {
+        let tools = (from..from + 4).map(|i| json!({ "shape": "mesh", "src": format!("{i}.stl") }));
+        json!({ "kind": "sweep", "params": { "tools": tools.collect::<Vec<_>>() } })
+    };
+    let mut templates: Vec<Value> = (0..4).map(|i| sweep(4 * i)).collect();
+    // Two more, and one that is known.
+    templates.push(json!({ "kind": "sweep", "params": { "tools": [
+        { "shape": "mesh", "src": "16.stl" }, { "shape": "mesh", "src": "3.stl" }, { "shape": "mesh", "src": "17.stl" }] } }));
+    let document =
+        Document::from_value(json!({ "fabrica": 1, "templates": templates })).expect("right");
+    let pointers: Vec<&str> = document
+        .notices()
+        .iter()
+        .map(|n| n.pointer.as_str())
+        .collect();
+    assert_eq!(
+        pointers,
+        ["/templates/4/params/tools/0", "/templates/4/params/tools/2"]
+    );
+    let last = &document.illustration().templates[4];
+    let TemplateData::Tools(held) = &last.data else {
+        panic!("tools");
+    };
+    let keys = held
+        .tools
+        .iter()
+        .map(|tool| tool.shape.as_ref()?.file()?.key());
+    assert_eq!(keys.collect::<Vec<_>>(), [None, Some("3.stl"), None]);
 }
 
 #[test]
@@ -204,7 +311,7 @@ fn a_document_has_so_many_pieces_and_steps_and_no_more() {
 #[test]
 fn an_edit_keeps_what_it_does_not_know() {
     let document = read(
-        json!({ "tools": [{ "shape": "mesh", "src": "a.stl" }, { "later": [1], "path": [[0, 0, 0]] }] }),
+        json!({ "tools": [{ "shape": "cloud", "src": "a.stl" }, { "later": [1], "path": [[0, 0, 0]] }] }),
     );
     let document = document.expect("right");
     let mut held = tools(&document).clone();

@@ -130,8 +130,9 @@ pub(super) fn mirrors(mirror: [bool; 3]) -> String {
 }
 
 /// Keys of tools that say what a shape is like; another shape has others.
-const OF_SHAPES: [&str; 7] = [
-    "radius", "radii", "length", "half", "round", "ring", "points",
+const OF_SHAPES: [&str; 12] = [
+    "radius", "radii", "length", "half", "round", "ring", "points", "src", "sha256", "name",
+    "longest", "strokes",
 ];
 
 /// The tools of a sweep. Of those that the document has `before`, keys that are not known stay, and tools that are not
@@ -180,6 +181,21 @@ pub(super) fn put_shape(tool: &mut Value, shape: &ToolShape) {
         ToolShape::Curve { points, radius } => {
             put("points", points.iter().map(|p| vector(*p)).collect());
             put("radius", rounded(*radius));
+        }
+        ToolShape::Mesh { file, longest } => {
+            for (key, given) in [("src", &file.src), ("sha256", &file.sha256)] {
+                if let Some(given) = given {
+                    put(key, json!(given));
+                }
+            }
+            if !file.name.is_empty() {
+                put("name", json!(file.name));
+            }
+            put("longest", rounded(*longest));
+        }
+        ToolShape::Clay { strokes, longest } => {
+            put("strokes", json!(strokes));
+            put("longest", rounded(*longest));
         }
     }
 }

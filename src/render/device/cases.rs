@@ -2,12 +2,12 @@
 //! see that a branch is never taken: a document with one alignment would have each formula compiled two hundred times.
 //! So what a document does not use is left out of the text.
 
-use crate::displace::{Holds, TemplateKind, without_formula};
+use crate::displace::{DRAWN_GRIDS, Holds, TemplateKind, without_formula};
 
 /// What the documents have that a program is put together for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Cases {
-    /// Bit k: templates of kind k occur (as `Templates::drawn_kinds`).
+    /// Bit k: templates of kind k occur; [`DRAWN_GRIDS`]: some tools are grids (as `Templates::drawn_kinds`).
     pub kinds: u32,
     /// Bit m: tissue is kept by align mode m (`KeptTissue::align_mode`).
     pub align_modes: u32,
@@ -91,7 +91,13 @@ const fn body(
     }
 }
 
-pub(super) const BODIES: [Body; 8] = [
+pub(super) const BODIES: [Body; 9] = [
+    body(
+        "displace/tools.wgsl",
+        "grid_distance",
+        |cases| cases.kinds & DRAWN_GRIDS != 0,
+        "return length(p);",
+    ),
     body(
         "march/asked.wgsl",
         "grouped",

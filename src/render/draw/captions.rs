@@ -5,7 +5,7 @@ use super::pick::PendingDepths;
 use super::renderer::Renderer;
 use super::studio::Studio;
 use crate::clay::Way;
-use crate::data::Sheet;
+use crate::data::{Grids, Sheet};
 use crate::document::{Camera, Caption, Clay, Illustration, PlacedTemplate, Recipe, SubjectRef};
 use crate::render::device::error::RenderError;
 use crate::render::pack::view::View;
@@ -27,8 +27,8 @@ struct Cause {
     templates: Vec<PlacedTemplate>,
     /// The bent figure that the points lie in, if they lie in one.
     sheet: Option<Sheet>,
-    /// The clay whose strokes the captions go with, if the subject is one.
-    clay: Option<Arc<Clay>>,
+    /// The clay whose strokes the captions go with, if the subject is one, and the grids of its tools.
+    clay: Option<(Arc<Clay>, Grids)>,
     /// Places of the captions in the document, and points of tissue that are followed, rest space: one per caption; and
     /// whether that is drawn.
     at: Vec<Vec3>,
@@ -41,7 +41,7 @@ impl Cause {
         shown: &Illustration,
         segments: usize,
         sheet: Option<&Sheet>,
-        clay: Option<&Arc<Clay>>,
+        clay: Option<(&Arc<Clay>, &Grids)>,
     ) -> Self {
         Self {
             subject: shown.subject.clone(),
@@ -49,7 +49,7 @@ impl Cause {
             segments,
             templates: shown.templates.clone(),
             sheet: sheet.cloned(),
-            clay: clay.cloned(),
+            clay: clay.map(|(clay, grids)| (Arc::clone(clay), grids.clone())),
             at: shown.captions.iter().map(|caption| caption.at).collect(),
             points: tissue(shown, clay),
             drawn: shown
@@ -66,10 +66,10 @@ impl Cause {
         shown: &Illustration,
         segments: usize,
         sheet: Option<&Sheet>,
-        clay: Option<&Arc<Clay>>,
+        clay: Option<(&Arc<Clay>, &Grids)>,
     ) -> bool {
         let is_same_clay = match (&self.clay, clay) {
-            (Some(own), Some(shown)) => Arc::ptr_eq(own, shown),
+            (Some((own, made)), Some((shown, grids))) => Arc::ptr_eq(own, shown) && made == grids,
             (own, shown) => own.is_none() && shown.is_none(),
         };
         is_same_clay
@@ -87,13 +87,13 @@ impl Cause {
 
 /// Where the tissue of captions is in the untouched subject. Captions of a clay stand in its starting shape, and go
 /// with the strokes of the clay that is drawn.
-fn tissue(shown: &Illustration, clay: Option<&Arc<Clay>>) -> Vec<Vec3> {
+fn tissue(shown: &Illustration, clay: Option<(&Arc<Clay>, &Grids)>) -> Vec<Vec3> {
     let at = shown.captions.iter().map(|caption| caption.at);
-    let Some(clay) = clay else {
+    let Some((clay, grids)) = clay else {
         return at.collect();
     };
     let mut vertices: Vec<_> = at.map(|at| (at.as_dvec3(), DVec3::ZERO)).collect();
-    Way::of(clay).forward(&mut vertices);
+    Way::of(clay, grids).forward(&mut vertices);
     vertices.into_iter().map(|(pos, _)| pos.as_vec3()).collect()
 }
 
@@ -154,12 +154,15 @@ impl FollowedCaptions {
         }
         let segments = renderer.segments().len();
         let sheet = renderer.sheet().cloned();
-        let clay = renderer.clay().cloned();
-        let is_known = |cause: &Cause| cause.is_of(shown, segments, sheet.as_ref(), clay.as_ref());
+        let clay = renderer
+            .clay()
+            .map(|(clay, grids)| (Arc::clone(clay), grids.clone()));
+        let clay = clay.as_ref().map(|(clay, grids)| (clay, grids));
+        let is_known = |cause: &Cause| cause.is_of(shown, segments, sheet.as_ref(), clay);
         if self.pending.is_some() {
             is_waiting = true;
         } else if !self.known.as_ref().is_some_and(is_known) {
-            let cause = Cause::of(shown, segments, sheet.as_ref(), clay.as_ref());
+            let cause = Cause::of(shown, segments, sheet.as_ref(), clay);
             if sheet.is_none() && cause.templates.iter().all(|t| !t.acting().enabled) {
                 self.places = cause.points.iter().copied().map(Some).collect();
                 self.known = Some(cause);

@@ -11,7 +11,7 @@ use super::rows::{PictureSpec, Taker};
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
 use super::studio::Studio;
 use super::targets::{Shot, Targets, fitting_size};
-use crate::data::{Resources, Segment, Segmentation, Sheet, Subject, Surface};
+use crate::data::{Grids, Resources, Segment, Segmentation, Sheet, Subject, Surface};
 use crate::document::{Camera, Clay, Illustration};
 use crate::math::Aabb;
 use crate::render::device::bindings::encoder;
@@ -287,9 +287,10 @@ impl Renderer {
         self.resources.sheet.as_ref()
     }
 
-    /// The recipe of the subject, if it is a clay.
-    pub fn clay(&self) -> Option<&Arc<Clay>> {
-        self.resources.clay.as_ref()
+    /// The recipe of the subject, if it is a clay, and the grids of tools.
+    pub fn clay(&self) -> Option<(&Arc<Clay>, &Grids)> {
+        let clay = self.resources.clay.as_ref()?;
+        Some((clay, &self.resources.grids))
     }
 
     /// Looks from elsewhere than the illustration says, until that is set again.

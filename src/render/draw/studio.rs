@@ -10,7 +10,7 @@ use super::picture::PictureJob;
 use super::probe::Sample;
 use super::rows::{PictureSpec, Taker, band_rows};
 use super::slice::{PendingSlice, SliceBoard, SlicePlane, SliceScene, SliceView};
-use crate::data::{Resources, Segment, Subject};
+use crate::data::{Grids, Resources, Segment, Subject};
 use crate::document::{Background, Clay, Illustration, Light};
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -250,9 +250,10 @@ impl Studio {
         }
     }
 
-    /// The recipe of the subject, if it is a clay.
-    pub fn clay(&self) -> Option<&Arc<Clay>> {
-        self.resources.clay.as_ref()
+    /// The recipe of the subject, if it is a clay, and the grids of tools.
+    pub fn clay(&self) -> Option<(&Arc<Clay>, &Grids)> {
+        let clay = self.resources.clay.as_ref()?;
+        Some((clay, &self.resources.grids))
     }
 
     /// What the labels of [`Studio::identify`] stand for: the segments of the subject, or the regions of a figure.

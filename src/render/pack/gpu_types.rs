@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::data::{Carver, FieldSamples, Resources};
+use crate::data::{Carver, DistanceGrid, FieldSamples, Resources};
+use crate::displace::{DRAWN_GRIDS, GridPlace};
 use crate::document::{
-    MAX_FIELDS, MAX_OBJECTS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateMode,
+    MAX_FIELDS, MAX_OBJECTS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateKind,
+    TemplateMode, ToolFile, ToolShape,
 };
-use crate::placed::{solved_points, sweep_rows, sweep_texels};
+use crate::placed::{solved_points, sweep_rows, sweep_shapes, sweep_texels};
 use glam::{Affine3A, Mat3A, Vec3A};
 
 /// Format of the transfer table.
@@ -119,7 +121,8 @@ impl Templates {
         // The first entry stays 0: no points, no samples, no curve. Curves come first: there is room for one of every
         // template.
         let (mut used, mut slice) = (1, 0);
-        let (mut fields, mut steps) = (0, 0);
+        let grids = Laid::of(placed, resources);
+        let (mut fields, mut steps) = (0, grids.texels());
         let mut hold = |rows: &[[f32; 4]]| {
             let free = packed.pool.get_mut(used..used + rows.len())?;
             free.copy_from_slice(rows);
@@ -150,7 +153,9 @@ impl Templates {
                     _ => Vec::new(),
                 },
                 TemplateData::Object(_) => carver_rows(template, resources, &carvers),
-                TemplateData::Tools(_) => sweep_rows(template, &mut steps),
+                TemplateData::Tools(_) => {
+                    sweep_rows(template, &mut steps, &|file| grids.place(file))
+                }
                 TemplateData::None => Vec::new(),
             };
             if let Some(first) = hold(&held) {
@@ -161,13 +166,24 @@ impl Templates {
         packed
     }
 
-    /// Bit k: templates of kind k occur; bit 0: some lie along a curve. Pipelines are made for this.
+    /// Bit k: templates of kind k occur; bit 0: some lie along a curve; [`DRAWN_GRIDS`]: some tools are grids.
+    /// Pipelines are made for this.
     pub fn drawn_kinds(&self) -> u32 {
         let used = self.items.iter().take(self.count as usize);
         used.fold(0, |bits, t| {
             let kind = 1u32.checked_shl(t.kind).unwrap_or(0);
-            bits | kind | u32::from(t.curve != 0)
+            let grids = if self.has_grids(t) { DRAWN_GRIDS } else { 0 };
+            bits | kind | u32::from(t.curve != 0) | grids
         })
+    }
+
+    /// True if a tool of a sweep is a grid of distances.
+    fn has_grids(&self, template: &Template) -> bool {
+        if template.kind != TemplateKind::Sweep as u32 || template.held == 0 {
+            return false;
+        }
+        let held = self.pool.get(template.held as usize..).unwrap_or(&[]);
+        sweep_shapes(held).any(|shape| shape == ToolShape::MESH)
     }
 }
 
@@ -182,6 +198,60 @@ pub(crate) fn acting_carvers(placed: &[PlacedTemplate], resources: &Resources) -
         }
     }
     carvers
+}
+
+/// The grids of distances that sweeps read, each once, as they lie before the steps in the texture of sweeps.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Laid(Vec<(String, Arc<DistanceGrid>)>);
+
+/// Two are equal if they share their grids in memory.
+impl PartialEq for Laid {
+    fn eq(&self, other: &Self) -> bool {
+        let pairs = self.0.iter().zip(&other.0);
+        self.0.len() == other.0.len() && pairs.into_iter().all(|((_, a), (_, b))| Arc::ptr_eq(a, b))
+    }
+}
+
+impl Laid {
+    /// The grids of the sweeps that act, as far as they are there.
+    pub(crate) fn of(placed: &[PlacedTemplate], resources: &Resources) -> Self {
+        let mut laid = Self::default();
+        for template in placed.iter().filter(|t| resources.acting(t).enabled) {
+            let TemplateData::Tools(tools) = &template.data else {
+                continue;
+            };
+            for shape in tools.acting().filter_map(|tool| tool.shape.as_ref()) {
+                if let Some(key) = shape.file().and_then(ToolFile::key)
+                    && laid.0.iter().all(|(known, _)| known != key)
+                    && let Some((grid, _)) = resources.grids.of(shape)
+                {
+                    laid.0.push((key.to_owned(), Arc::clone(grid)));
+                }
+            }
+        }
+        laid
+    }
+
+    /// The grids in the order in which they lie.
+    pub(crate) fn grids(&self) -> impl Iterator<Item = &DistanceGrid> {
+        self.0.iter().map(|(_, grid)| &**grid)
+    }
+
+    /// Texels that all of them take.
+    fn texels(&self) -> usize {
+        self.grids().map(DistanceGrid::texel_count).sum()
+    }
+
+    /// Where the grid of a file lies, if it is there.
+    fn place(&self, file: &ToolFile) -> Option<GridPlace> {
+        let key = file.key()?;
+        let at = self.0.iter().position(|(known, _)| known == key)?;
+        let before = self.grids().take(at).map(DistanceGrid::texel_count);
+        Some(GridPlace {
+            first: before.sum(),
+            nodes: self.0.get(at)?.1.nodes(),
+        })
+    }
 }
 
 /// The steps of the sweeps that act, one behind the other.

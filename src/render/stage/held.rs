@@ -3,12 +3,12 @@
 
 use std::sync::Arc;
 
-use crate::data::{Carver, FieldSamples, Resources};
+use crate::data::{Carver, DistanceGrid, FieldSamples, Resources};
 use crate::document::{MAX_FIELDS, PlacedTemplate};
 use crate::render::device::bindings::entry;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::textures::{volume_texture, write_slices};
-use crate::render::pack::gpu_types::{acting_carvers, acting_sweeps};
+use crate::render::pack::gpu_types::{Laid, acting_carvers, acting_sweeps};
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::flat_texture;
 use glam::UVec3;
@@ -25,6 +25,8 @@ pub(crate) struct HeldData {
     fields: Vec<FieldSamples>,
     /// Grids of objects, each once, in the order in which templates first carve by them.
     carvers: Vec<Arc<Carver>>,
+    /// Grids of the tools of sweeps.
+    grids: Laid,
     /// Steps of sweeps, in the order of the templates.
     sweeps: Vec<[f32; 4]>,
 }
@@ -32,7 +34,7 @@ pub(crate) struct HeldData {
 /// Two are equal if they share their data in memory.
 impl PartialEq for HeldData {
     fn eq(&self, other: &Self) -> bool {
-        self.sweeps == other.sweeps && self.has_files_of(other)
+        self.sweeps == other.sweeps && self.grids == other.grids && self.has_files_of(other)
     }
 }
 
@@ -52,6 +54,7 @@ impl HeldData {
         Self {
             fields: samples.take(MAX_FIELDS).collect(),
             carvers: acting_carvers(templates, resources),
+            grids: Laid::of(templates, resources),
             sweeps: acting_sweeps(templates, resources),
         }
     }
@@ -64,7 +67,7 @@ pub(crate) struct HeldTextures {
     fields: wgpu::TextureView,
     /// Group 2, binding 13: the nodes of all grids, one behind the other.
     carvers: wgpu::TextureView,
-    /// Group 2, binding 15: the steps of all sweeps, one behind the other.
+    /// Group 2, binding 15: the grids of tools, and the steps of all sweeps, one behind the other.
     sweeps: wgpu::TextureView,
     /// Stamp of the textures.
     pub stamp: Stamp,
@@ -90,9 +93,9 @@ impl HeldTextures {
                 self.fields = fields_of(gpu, &new.fields);
                 self.carvers = carvers_of(gpu, &new.carvers);
             }
-            if self.made_of.sweeps != new.sweeps {
+            if self.made_of.sweeps != new.sweeps || self.made_of.grids != new.grids {
                 self.sweeps.texture().destroy();
-                self.sweeps = sweeps_of(gpu, &new.sweeps);
+                self.sweeps = sweeps_of(gpu, new);
             }
             self.made_of = new.clone();
             self.stamp += 1;
@@ -104,7 +107,7 @@ impl HeldTextures {
         Self {
             fields: fields_of(gpu, &held.fields),
             carvers: carvers_of(gpu, &held.carvers),
-            sweeps: sweeps_of(gpu, &held.sweeps),
+            sweeps: sweeps_of(gpu, held),
             stamp: 0,
             made_from: MadeFrom::default(),
             made_of: held.clone(),
@@ -178,8 +181,9 @@ fn carvers_of(gpu: &Gpu, carvers: &[Arc<Carver>]) -> wgpu::TextureView {
     texture.create_view(&Default::default())
 }
 
-fn sweeps_of(gpu: &Gpu, steps: &[[f32; 4]]) -> wgpu::TextureView {
-    let mut texels = steps.to_vec();
+fn sweeps_of(gpu: &Gpu, held: &HeldData) -> wgpu::TextureView {
+    let mut texels: Vec<[f32; 4]> = held.grids.grids().flat_map(DistanceGrid::texels).collect();
+    texels.extend(&held.sweeps);
     let width = if texels.is_empty() { 1 } else { SWEEP_ROW };
     texels.resize(texels.len().next_multiple_of(width).max(1), [0.0; 4]);
     let size = [width as u32, (texels.len() / width) as u32];

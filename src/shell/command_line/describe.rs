@@ -62,6 +62,7 @@ pub(super) fn describe(
         let mut resources = fields_of(shown, common, &opened.folder)?;
         let place = (common, opened.folder.as_path());
         resources.objects = objects_of(shown, Needed::All, ObjectMeshes::new(), place)?;
+        resources.grids.baked = subject.baked();
         if told.is_empty() {
             report_drawing(shown, &resources, &subject);
         }

@@ -5,15 +5,16 @@ use std::path::{Path, PathBuf};
 use super::args::Common;
 use super::error::CliError;
 use super::output::notice;
-use super::subject::subject_of;
-use crate::assets::{Assets, Data, ResourceNews, Want};
-use crate::data::{Grid, Resources, VolumeLimits};
+use super::subject::{subject_of, tool_grids};
+use crate::assets::{Assets, Data, ResourceNews, Want, tool_files};
+use crate::data::{Grid, Grids, Resources, VolumeLimits};
 use crate::document::{Illustration, SubjectRef, TemplateData};
 use crate::load::{FieldFile, read_field};
 use crate::shell::files::{Folder, local};
 use crate::subjects::{FINE_RESOLUTION, Generator};
 
-/// The samples of each `field` template that acts, and the recipe of a clay, which captions go with.
+/// The samples of each `field` template that acts, the grids of tools that are meshes, and the recipe of a clay, which
+/// captions go with.
 ///
 /// # Errors
 /// [`CliError::Field`] with the template's pointer.
@@ -40,9 +41,16 @@ pub(super) fn fields_of(
         paths.push((template.index, path));
     }
     let clay = Want::subject(&illustration.subject_shown()).clay().cloned();
+    let files = tool_files(illustration);
+    let files = files.iter().map(|(_, file)| *file);
+    let grids = Grids {
+        files: tool_grids(files, (common, folder), true)?,
+        baked: Vec::new(),
+    };
     if paths.is_empty() {
         return Ok(Resources {
             clay,
+            grids,
             ..Resources::default()
         });
     }
@@ -53,7 +61,8 @@ pub(super) fn fields_of(
             ResourceNews::NoSegment { .. }
             | ResourceNews::MeshesKept
             | ResourceNews::FieldNotice { .. }
-            | ResourceNews::TooThin { .. } => notice(news),
+            | ResourceNews::TooThin { .. }
+            | ResourceNews::ToolIsSheet { .. } => notice(news),
             ResourceNews::FieldRefused { template, .. } => {
                 let path = paths.iter().find(|(index, _)| *index == template);
                 let path = path.map(|(_, path)| path.display().to_string());
@@ -62,7 +71,11 @@ pub(super) fn fields_of(
             }
         }
     }
-    Ok(Resources { clay, ..resources })
+    Ok(Resources {
+        clay,
+        grids,
+        ..resources
+    })
 }
 
 /// The file of a field: at its address, else the one of those given that has its hash.

@@ -34,6 +34,7 @@ impl ReadingFlags {
             bounds: document.bounds,
             meshes: document.meshes,
             carves: document.carves,
+            sweeps: document.sweeps,
         }
     }
 

@@ -91,6 +91,7 @@ pub(super) fn render(
     let here = std::mem::take(&mut resources.objects);
     let place = (common, opened.folder.as_path());
     resources.objects = objects_of(&illustration, Needed::All, here, place)?;
+    resources.grids.baked = subject.baked();
     let (illustration, resources) = with_sheet(&mut None, illustration, resources, &subject)?;
     let subject = finer(subject, &illustration.camera, paper.size);
     let studio = Studio::new(&gpu, &subject, true)?.with_resources(resources);

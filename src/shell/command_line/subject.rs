@@ -12,10 +12,10 @@ use super::reading::hint;
 use super::stop;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
-    BuildError, Mesh, Reducer, Resources, Subject, SubjectBuilder, SubjectPart, SubjectSink as _,
-    Surface, TimeSlices, VolumeBuilder, VolumeLimits, segment,
+    BuildError, DistanceGrid, Mesh, Reducer, Resources, Subject, SubjectBuilder, SubjectPart,
+    SubjectSink as _, Surface, TimeSlices, VolumeBuilder, VolumeLimits, segment,
 };
-use crate::document::{Clay, DRAWN_FIGURES, Illustration, Reading};
+use crate::document::{Clay, DRAWN_FIGURES, Illustration, Reading, ToolFile};
 use crate::figure::builtin_plate;
 use crate::load::{FileSet, LabelFile, LoadError, LoadReport, ReadOptions, read_label_file};
 use crate::render::{KeptTissue, RenderNotice, lidded};
@@ -54,6 +54,8 @@ pub(super) fn subject_of(
             Role::Mesh => {}
             // Objects come by `objects_of`: they are no part of the subject.
             Role::Object => {}
+            // Nor are meshes of tools: a clay takes its own when it is shaped.
+            Role::Tool => {}
         }
     }
     take_meshes(&mut assets, illustration, common, folder)?;
@@ -356,6 +358,7 @@ pub(super) fn begun(
 ) -> Result<(ClayDesk, Arc<Clay>, Option<String>), MissingSubject> {
     let mut desk = ClayDesk::default();
     let mut clay = want.clay().cloned().unwrap_or_default();
+    desk.take_meshes(&tool_grids(clay.tool_files(), (common, folder), false)?);
     let Some(path) = file_of(want, common, folder)? else {
         return Ok((desk, clay, None));
     };
@@ -383,6 +386,52 @@ pub(super) fn begun(
         Some(Ok(())) | None => {}
     }
     Ok((desk, clay, sha256))
+}
+
+/// The grids of tools that are meshes, by the keys of their files. What is not there is left out; notices name it, and
+/// what has no inside, if `is_told`.
+///
+/// # Errors
+/// If a file cannot be read, is no mesh, or is another one than the document means.
+pub(super) fn tool_grids<'a>(
+    files: impl Iterator<Item = &'a ToolFile>,
+    (common, folder): (&Common, &Path),
+    is_told: bool,
+) -> Result<Vec<(String, Arc<DistanceGrid>)>, MissingSubject> {
+    let mut grids: Vec<(String, Arc<DistanceGrid>)> = Vec::new();
+    let mut missing = Vec::new();
+    for file in files {
+        let (Some(key), Some(want)) = (file.key(), Want::tool(file)) else {
+            continue;
+        };
+        if missing.contains(&key) || grids.iter().any(|(known, _)| known == key) {
+            continue;
+        }
+        let Some(path) = path_of(&want, common, folder) else {
+            missing.push(key);
+            if is_told {
+                report_missing("tool", &want, folder);
+            }
+            continue;
+        };
+        let data = mesh_data(&path, &want, folder, &[], "a tool")?;
+        let found = data.sha256().map(|found| want.check(found));
+        found
+            .transpose()
+            .map_err(|other| MissingSubject::other(&path, other))?;
+        if let Data::Object { mesh, .. } = data
+            && let Some((_, grid)) = mesh.grids.first()
+        {
+            if is_told && grid.is_open() {
+                let shown = path.display();
+                notice(format!(
+                    "{shown}: the mesh is open and has no inside: as a tool it is a sheet"
+                ));
+            }
+            grids.push((key.to_owned(), Arc::clone(grid)));
+        }
+    }
+    Ok(grids)
 }
 
 /// The given file that has the hash of a want.

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::displace::{COAT, Holds, LONG, MAX_TOOL_POINTS, ROUND, SCALE, SOLID};
+use crate::displace::{COAT, Holds, LONG, LONGEST, MAX_TOOL_POINTS, ROUND, SCALE, SOLID};
 use crate::document::{MAX_KEYS, MAX_TOOLS, ParamKind, TemplateKind, ToolShape, plain_f64};
 
 /// Parameters of a kind that are no numbers or choices, as the list has them.
@@ -28,7 +28,7 @@ fn held(holds: Holds) -> Value {
             )]);
             let tool = json!([
                 { "name": "shape", "summary": "Its form; lengths are fractions of the shortest side of the box",
-                    "type": "choice", "default": ToolShape::NAMES[0], "choices": ToolShape::NAMES },
+                    "type": "choice", "default": ToolShape::NAMES[0], "choices": ToolShape::OF_SWEEPS },
                 number("radius", 0.15, ROUND, "Of a ball (0.15, at least 0.005), a capsule (0.08), the tube of a torus or a curve (0.05)"),
                 vector("radii", [0.2, 0.15, 0.1], SOLID, "Half axes of an ellipsoid"),
                 number("length", 0.4, LONG, "Of the straight part of a capsule"),
@@ -36,6 +36,10 @@ fn held(holds: Holds) -> Value {
                 number("round", 0.02, ROUND, "Radius of the edges of a box, at most its least half side"),
                 number("ring", 0.2, SOLID, "Radius of a torus, to the middle of its tube"),
                 list("points", json!([[0, 0, -0.2], [0, 0, 0.2]]), MAX_TOOL_POINTS, point, "Of a curve: two or more places with straight pieces between them"),
+                text("src", "Address of the file of a mesh"),
+                text("sha256", "Hash of its bytes; without an address the reader supplies the file"),
+                text("name", "The author's name for the file"),
+                number("longest", ToolShape::LONGEST.into(), LONGEST, "Longest side of the box of a mesh"),
                 number("coat", 0.25, COAT, "Width of the coating in which its motion fades"),
                 { "name": "spline", "summary": "Places are joined by a smooth curve", "type": "flag", "default": false },
                 list("path", path, MAX_KEYS, key, "Its poses; with one it stands still and holds what is in it"),

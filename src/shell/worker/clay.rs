@@ -9,6 +9,7 @@ use wasm_bindgen::prelude::*;
 use super::answer::post;
 use super::blobs::{BlobFiles, fetch, name_of, not_fetched};
 use super::fault;
+use super::pieces::unpacked_grids;
 use super::task::{Part, ScanTask};
 use crate::assets::LoadEvent;
 use crate::document::clay_from_text;
@@ -35,6 +36,8 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
     let text = Reflect::get(&message, &"clay".into())?;
     let clay = clay_from_text(&text.as_string().unwrap_or_default());
     let clay = Arc::new(clay.map_err(|error| JsValue::from(error.to_string()))?);
+    let meshes = unpacked_grids(&Reflect::get(&message, &"meshes".into())?);
+    DESK.with_borrow_mut(|desk| desk.take_meshes(&meshes));
     let mut post = |event: LoadEvent| post::event(event).is_ok();
     if clay.file().is_none() {
         DESK.with_borrow_mut(|desk| make_clay(desk, &clay, &mut post));

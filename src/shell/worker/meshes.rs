@@ -12,7 +12,7 @@ use crate::assets::LoadEvent;
 use crate::document::Reading;
 use crate::load::{LoadError, LoadReport, mesh_among, names_beside, read_meshes};
 use crate::shell::loading::{PostingSink, is_mesh_file};
-use crate::shell::meshes::{Carving, box_of, make_mesh, mesh_files};
+use crate::shell::meshes::{Finishing, box_of, make_mesh, mesh_files};
 
 /// Called once when the part has been loaded.
 pub fn loaded() {
@@ -131,6 +131,6 @@ async fn prepare(
         let outcome = unpacked(packed, load).await;
         read.unpacked(outcome.map_err(|error| text_of(&error)), report);
     }
-    let mut carving = Carving(sink);
-    read.prepare(box_of(reading), carving.where_it(reading.carves), report)
+    let mut finishing = Finishing::new(sink, reading.carves, reading.sweeps);
+    read.prepare(box_of(reading), finishing.sink(), report)
 }

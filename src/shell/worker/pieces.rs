@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, Vec2};
+use glam::{DVec2, UVec3, Vec2};
 use js_sys::{
     Array, ArrayBuffer, Float32Array, Float64Array, Int16Array, Uint8Array, Uint16Array,
     Uint32Array,
@@ -13,8 +13,8 @@ use wasm_bindgen::prelude::*;
 
 use super::header::{json_of, volume_of};
 use crate::data::{
-    Plate, PlateOrigin, PlateShape, PlateWord, SheetMesh, SubjectPart, Surface, SurfaceArrays,
-    Voxels,
+    DistanceGrid, Plate, PlateOrigin, PlateShape, PlateWord, SheetMesh, SubjectPart, Surface,
+    SurfaceArrays, Voxels,
 };
 use crate::pictures::Picture;
 
@@ -211,7 +211,7 @@ pub fn unpacked_places(held: &JsValue) -> Option<Vec<Vec2>> {
 }
 
 /// How many arrays a surface has.
-pub const SURFACE_ARRAYS: usize = 17;
+pub const SURFACE_ARRAYS: usize = 19;
 
 /// Puts an array of a surface, by its index in [`packed_surface`], to those that have come. Each comes in a message of
 /// its own, so that no frame waits for all of them. `None` if it is none.
@@ -242,6 +242,8 @@ pub fn put_array(arrays: &mut SurfaceArrays, index: u32, held: &JsValue) -> Opti
         14 => arrays.carver_numbers = floats()?,
         15 => arrays.carver_levels = indices()?,
         16 => arrays.carver_texels = indices()?,
+        17 => arrays.grid_sides = indices()?,
+        18 => arrays.grid_values = floats()?,
         _ => return None,
     }
     Some(())
@@ -271,7 +273,38 @@ pub fn packed_surface(surface: &Surface) -> [JsValue; SURFACE_ARRAYS] {
         floats(&arrays.carver_numbers),
         indices(&arrays.carver_levels),
         indices(&arrays.carver_texels),
+        indices(&arrays.grid_sides),
+        floats(&arrays.grid_values),
     ]
+}
+
+/// Grids of tools, each an array of its key, its sides with 1 behind them if it is open, and its nodes.
+pub fn packed_grids(grids: &[(String, Arc<DistanceGrid>)]) -> Array {
+    let packed = grids.iter().map(|(key, grid)| {
+        let [x, y, z] = grid.nodes().to_array();
+        let sides = [x, y, z, grid.is_open().into()];
+        let values = Float32Array::from(grid.values());
+        Array::of3(&key.into(), &Uint32Array::from(&sides[..]), &values)
+    });
+    packed.collect()
+}
+
+/// The grids of [`packed_grids`]; those that are none are left out.
+pub fn unpacked_grids(held: &JsValue) -> Vec<(String, Arc<DistanceGrid>)> {
+    let grid_of = |packed: JsValue| {
+        let packed: Array = packed.dyn_into().ok()?;
+        let sides = packed.get(1).dyn_ref::<Uint32Array>()?.to_vec();
+        let values = packed.get(2).dyn_ref::<Float32Array>()?.to_vec();
+        let [x, y, z, is_open] = sides[..] else {
+            return None;
+        };
+        let grid = DistanceGrid::from_parts(UVec3::new(x, y, z), values, is_open != 0)?;
+        Some((packed.get(0).as_string()?, Arc::new(grid)))
+    };
+    let list = held.dyn_ref::<Array>().into_iter();
+    list.flat_map(|list| list.iter())
+        .filter_map(grid_of)
+        .collect()
 }
 
 fn json(text: &JsValue) -> Option<Value> {

@@ -5,7 +5,8 @@
 //! - for the readers of scans and of meshes `builtin` (of a mesh) and `carves`, `files` (pairs of name and `Blob`),
 //!   `address`, or `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label
 //!   volumes), `has_scan` and `may_be_field`,
-//! - for the shaper of clays `clay` (a text), with `address` or `files` where it begins with a file,
+//! - for the shaper of clays `clay` (a text) and `meshes` (grids of its tools), with `address` or `files` where it
+//!   begins with a file,
 //! - for the bender of figures `figure` (a text), `bender` (a number: each has one plate), `rounds`, and `plate` where
 //!   it is to be another one from now on.
 
@@ -18,11 +19,11 @@ use wasm_bindgen::prelude::*;
 use web_sys::Blob;
 
 use super::pieces;
-use crate::assets::{BendPose, BendRequest, SegmentationsExpected};
-use crate::data::VolumeLimits;
+use crate::assets::{BendPose, BendRequest, SegmentationsExpected, Want};
+use crate::data::{DistanceGrid, VolumeLimits};
 use crate::document::{
-    MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, RawVoxels, Reading, SubjectBox,
-    figure_from_text, figure_to_text, is_drawn_name,
+    Clay, MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, RawVoxels, Reading, SubjectBox,
+    clay_to_text, figure_from_text, figure_to_text, is_drawn_name,
 };
 use crate::figure::is_figure_name;
 use crate::load::{are_mesh_names, is_mesh_name};
@@ -93,8 +94,27 @@ pub enum Task {
     Scan(ScanTask),
     /// Bend a figure, by the bender of this number.
     Bend(u32, BendRequest),
-    /// Shape a clay, whose recipe this is, and read the file that it begins with.
-    Clay(String, Option<ScanTask>),
+    /// Shape a clay, and read the file that it begins with.
+    Clay(ClayTask, Option<ScanTask>),
+}
+
+/// The clay that is to be shaped.
+#[derive(Clone, Debug)]
+pub struct ClayTask {
+    /// Its recipe as a text, see [`clay_to_text`].
+    pub recipe: String,
+    /// The grids of its tools that are meshes, by the keys of their files.
+    pub meshes: Vec<(String, Arc<DistanceGrid>)>,
+}
+
+impl ClayTask {
+    /// The task for what a want says of a clay.
+    pub fn of(clay: &Clay, want: &Want) -> Self {
+        Self {
+            recipe: clay_to_text(clay),
+            meshes: want.meshes.clone(),
+        }
+    }
 }
 
 /// What the parts that read files are to do.
@@ -186,8 +206,9 @@ impl Task {
                     set("plate", &pieces::packed_plate(plate))?;
                 }
             }
-            Self::Clay(recipe, file) => {
-                set("clay", &recipe.into())?;
+            Self::Clay(clay, file) => {
+                set("clay", &clay.recipe.as_str().into())?;
+                set("meshes", &pieces::packed_grids(&clay.meshes))?;
                 if let Some(file) = file {
                     file.put_into(&message)?;
                 }
@@ -339,7 +360,7 @@ pub fn text_of_reading(reading: &Reading) -> String {
     }).collect();
     json!({
         "frame": reading.frame, "raw": raw, "mesh": value_of_mesh(&reading.mesh), "bounds": bounds, "meshes": meshes,
-        "carves": reading.carves,
+        "carves": reading.carves, "sweeps": reading.sweeps,
     })
     .to_string()
 }
@@ -360,6 +381,7 @@ pub fn reading_of(text: &str) -> Reading {
         mesh: value.get("mesh").map(mesh_of).unwrap_or_default(),
         bounds: value.get("bounds").and_then(bounds_of),
         carves: value.get("carves").and_then(Value::as_bool) == Some(true),
+        sweeps: value.get("sweeps").and_then(Value::as_bool) == Some(true),
         meshes: value
             .get("meshes")
             .and_then(Value::as_array)
