@@ -24,7 +24,9 @@ pub struct Visit {
     document: Document,
     walk: Walk,
     playing: Option<Autoplay>,
-    /// Values that were set at this step, which may set them itself: pointer and value.
+    /// All values that were set, the last one of each pointer: pointer and value.
+    moved: Vec<(String, Value)>,
+    /// Those of them that were set at this step, which may set them itself.
     held: Vec<(String, Value)>,
     camera: Camera,
     /// The camera was turned by hand since the step was shown.
@@ -50,6 +52,7 @@ impl Visit {
             walk: Walk::at(&document, step),
             document,
             playing: None,
+            moved: Vec::new(),
             held: Vec::new(),
             camera: Camera::DOCUMENT_DEFAULT,
             is_turned: false,
@@ -199,9 +202,8 @@ impl Visit {
     pub fn set(&mut self, pointer: &str, value: Value) -> Result<(), DocumentError> {
         let document = self.document.with(pointer, value.clone())?;
         let step = self.walk.step();
-        let mut held = std::mem::take(&mut self.held);
-        held.retain(|(other, _)| other != pointer);
-        held.push((pointer.to_owned(), value));
+        let mut held = self.held.clone();
+        put_last(&mut held, pointer, value.clone());
         let mut walk = Walk::at(&document, step);
         if step > 0 {
             let mut state = document.at_step(step)?;
@@ -210,12 +212,64 @@ impl Visit {
             }
             walk.show(Arc::new(state.illustration().clone()));
         }
+        put_last(&mut self.moved, pointer, value);
         (self.document, self.walk, self.held, self.playing) = (document, walk, held, None);
         if pointer.starts_with("/camera") {
             self.camera = self.shown().camera;
         }
         self.moved_values();
         Ok(())
+    }
+
+    /// The camera as the document has it.
+    pub fn view(&self) -> Value {
+        let camera = &self.camera;
+        let rotate = self.shown().written_rotation(camera.rotate);
+        json!({
+            "target": camera.target.to_array(),
+            "rotate": rotate.to_array(),
+            "distance": camera.distance,
+            "fov": camera.fov_deg,
+        })
+    }
+
+    /// What the reader has made of the lesson and where she stands in it, for [`Visit::resume`]. On the way to a step
+    /// it is that step, with its own camera.
+    pub fn stand(&self) -> Value {
+        let is_moving = self.is_moving();
+        json!({
+            "position": if is_moving { self.step() as f32 } else { self.position() },
+            "view": (!is_moving).then(|| self.view()),
+            "turned": self.is_turned,
+            "playing": self.is_playing(),
+            "moved": self.moved,
+            "held": self.held.len(),
+        })
+    }
+
+    /// Brings a visit of the same lesson that was just opened to where another one stood. What does not fit is left out.
+    pub fn resume(&mut self, stand: &Value) {
+        let moved = stand["moved"].as_array().map_or(&[][..], Vec::as_slice);
+        let held = stand["held"].as_u64().unwrap_or(0) as usize;
+        let (before, held) = moved.split_at(moved.len().saturating_sub(held));
+        self.set_all(before);
+        self.scrub(stand["position"].as_f64().unwrap_or(0.0) as f32);
+        self.set_all(held);
+        let view = &stand["view"];
+        if let (false, Ok(posed)) = (view.is_null(), self.document.with("/camera", view.clone())) {
+            self.camera = posed.illustration().camera;
+            self.is_turned = stand["turned"] == true;
+        }
+        self.playing = (stand["playing"] == true).then(Autoplay::default);
+        self.revision += 1;
+    }
+
+    fn set_all(&mut self, values: &[Value]) {
+        for pair in values {
+            if let Some(pointer) = pair[0].as_str() {
+                let _does_not_fit = self.set(pointer, pair[1].clone());
+            }
+        }
     }
 
     /// The values of the document's controls at this step, in their order: numbers, or true and false.
@@ -228,6 +282,7 @@ impl Visit {
         let step = self.walk.step();
         self.document = self.lesson.clone();
         self.walk = Walk::at(&self.document, step);
+        self.moved.clear();
         self.held.clear();
         self.playing = None;
         self.camera = self.shown().camera;
@@ -331,6 +386,12 @@ impl Visit {
     }
 }
 
+/// Keeps a value as the last one that was set.
+fn put_last(values: &mut Vec<(String, Value)>, pointer: &str, value: Value) {
+    values.retain(|(other, _)| other != pointer);
+    values.push((pointer.to_owned(), value));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -410,6 +471,56 @@ mod tests {
         assert!(!visit.has_strayed());
         visit.go(0, 0.0, true);
         assert!(near(amount(&visit), 0.0));
+    }
+
+    #[test]
+    fn a_visit_is_resumed_where_another_one_stood() {
+        let mut visit = Visit::open(LESSON, None).expect("a document");
+        visit.set(AMOUNT, json!(0.1)).expect("a number");
+        visit.go(1, 0.0, true);
+        let again = |visit: &Visit| {
+            let stand = serde_json::from_str(&visit.stand().to_string()).expect("JSON");
+            let mut again = Visit::open(LESSON, None).expect("a document");
+            again.resume(&stand);
+            for key in ["position", "turned", "playing", "moved", "held"] {
+                assert_eq!(again.stand()[key], visit.stand()[key], "{key}");
+            }
+            let [one, other] = [&again, visit].map(|visit| visit.camera());
+            assert!(one.rotate.angle_between(other.rotate) < 3e-3);
+            assert!((one.distance - other.distance).abs() < 1e-5);
+            assert_eq!(again.document(), visit.document());
+            again
+        };
+        let mut resumed = again(&visit);
+        assert!(near(amount(&resumed), 0.3), "the step sets its own");
+        resumed.go(0, 0.0, true);
+        assert!(near(amount(&resumed), 0.1), "the value stays set");
+
+        visit.set(AMOUNT, json!(0.2)).expect("a number");
+        visit.turn(0.5, 0.1);
+        let resumed = again(&visit);
+        assert!(near(amount(&resumed), 0.2) && resumed.has_strayed());
+        visit.scrub(1.5);
+        again(&visit);
+        visit.toggle_playing(0.0, true);
+        assert!(again(&visit).is_playing());
+
+        // On the way it is the step that the passage leads to.
+        visit.go(1, 0.0, false);
+        assert!(visit.advance(0.5, false));
+        let stand = visit.stand();
+        let mut resumed = Visit::open(LESSON, None).expect("a document");
+        resumed.resume(&stand);
+        assert_eq!((resumed.step(), resumed.is_moving()), (1, false));
+        // What is none of this lesson changes nothing.
+        let mut other = Visit::open(LESSON, None).expect("a document");
+        for text in [
+            "null",
+            r#"{"moved":[7,["x",1]],"held":9,"view":{"fov":"wide"},"position":-3}"#,
+        ] {
+            other.resume(&serde_json::from_str(text).expect("JSON"));
+            assert!(!other.has_strayed() && other.step() == 0, "{text}");
+        }
     }
 
     #[test]

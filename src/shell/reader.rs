@@ -69,6 +69,23 @@ pub fn qr_of(text: &str) -> Result<Vec<u8>, JsValue> {
     Ok(gray.into_iter().map(|gray| u8::from(gray == 0)).collect())
 }
 
+thread_local! {
+    /// Hears of a panic.
+    static ON_PANIC: RefCell<Option<Function>> = const { RefCell::new(None) };
+}
+
+/// From now on the text of a panic goes to `hear`, before the trap that it ends in. Nothing of the program may be
+/// called after that, except [`Reader::at_work`] and [`Reader::give_up`].
+#[wasm_bindgen]
+pub fn on_panic(hear: Function) {
+    ON_PANIC.set(Some(hear));
+    std::panic::set_hook(Box::new(|info| {
+        if let Some(hear) = ON_PANIC.with_borrow(Clone::clone) {
+            let _nobody_listens = hear.call1(&JsValue::NULL, &info.to_string().into());
+        }
+    }));
+}
+
 /// The picture may be shown.
 const HAS_PICTURE: u32 = 1;
 /// The picture is complete, and nothing is under way for it.
@@ -124,12 +141,17 @@ struct Inner {
     has_less_motion: bool,
     /// Called when something has come of a load.
     on_news: Function,
+    /// The pictures whose data are worked on.
+    at_work: Rc<Cell<Vec<u32>>>,
 }
 
 /// All pictures of a page.
 #[wasm_bindgen]
 pub struct Reader {
     inner: Rc<RefCell<Inner>>,
+    /// The device, to be given back where a fault has left everything else as it was at that moment.
+    device: RefCell<wgpu::Device>,
+    at_work: Rc<Cell<Vec<u32>>>,
     is_lost: Cell<bool>,
     is_ended: Cell<bool>,
 }
@@ -145,6 +167,8 @@ impl Reader {
         let gpu = open_gpu().await?;
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
+        let device = gpu.device.clone();
+        let at_work = Rc::default();
         let inner = Inner {
             instance: wgpu::Instance::new(descriptor),
             gpu,
@@ -156,9 +180,12 @@ impl Reader {
             allowed_hosts: BTreeSet::new(),
             has_less_motion: false,
             on_news,
+            at_work: Rc::clone(&at_work),
         };
         Ok(Self {
             inner: Rc::new(RefCell::new(inner)),
+            device: RefCell::new(device),
+            at_work,
             is_lost: Cell::new(false),
             is_ended: Cell::new(false),
         })
@@ -255,13 +282,26 @@ impl Reader {
         inner.gpu.device.destroy();
     }
 
+    /// After a fault: the pictures whose data were worked on, if it was in that work.
+    pub fn at_work(&self) -> Vec<u32> {
+        self.at_work.take()
+    }
+
+    /// After a fault: gives the device back, and with it all that was made on it.
+    pub fn give_up(&self) {
+        self.is_ended.set(true);
+        self.device.borrow().destroy();
+    }
+
     /// Goes on with data: fetches, uploads, makes segments, for about `budget` seconds. True if there is more to do at
     /// once.
     pub fn tick(&self, budget: f32) -> bool {
         Inner::fetch(&self.inner);
         let mut inner = self.inner.borrow_mut();
+        let inner = &mut *inner;
         let mut is_busy = false;
-        for stocked in inner.stocks.values_mut() {
+        for (id, stocked) in &mut inner.stocks {
+            inner.at_work.set(pictures_of(&inner.shown, *id));
             match stocked.stock.advance(budget) {
                 // The others get their turn when this one's data are whole: together they would hold up the frame.
                 Ok(true) => {
@@ -273,6 +313,7 @@ impl Reader {
                 Err(error) => stocked.stock.fail(error.to_string()),
             }
         }
+        inner.at_work.take();
         is_busy
     }
 
@@ -362,7 +403,8 @@ impl Reader {
     /// Where a picture stands at the time `now`, seconds, and what it waits for, as JSON: `progress` (0 to 1, or null
     /// while nothing is loaded), `host` (that the reader has to agree to, or null), `file` (true if only the reader
     /// has it), `troubles` (texts), `failed` (there is no subject), `step`, `position`, `moving`, `playing`, `wait`
-    /// (seconds to the next step, or null), `strayed`, `values` (of the document's controls).
+    /// (seconds to the next step, or null), `strayed`, `values` (of the document's controls), `stand` (for
+    /// [`Reader::resume`]).
     pub fn state(&self, id: u32, now: f64) -> String {
         let inner = self.inner.borrow();
         let Some(shown) = inner.shown.get(&id) else {
@@ -392,6 +434,7 @@ impl Reader {
             "wait": visit.seconds_to_next_step(now),
             "strayed": visit.has_strayed(),
             "values": visit.control_values(),
+            "stand": visit.stand(),
         })
         .to_string()
     }
@@ -509,17 +552,14 @@ impl Reader {
 
     /// The camera, as the document has it: JSON.
     pub fn view(&self, id: u32) -> String {
-        self.with(id, |visit| {
-            let camera = visit.camera();
-            let rotate = visit.shown().written_rotation(camera.rotate);
-            json!({
-                "target": camera.target.to_array(),
-                "rotate": rotate.to_array(),
-                "distance": camera.distance,
-                "fov": camera.fov_deg,
-            })
-            .to_string()
-        })
+        self.with(id, |visit| visit.view().to_string())
+    }
+
+    /// Brings a picture that was just added to where another one stood: the `stand` of its [`Reader::state`].
+    pub fn resume(&self, id: u32, stand: &str) {
+        let stand: Value = serde_json::from_str(stand).unwrap_or_default();
+        self.with(id, |visit| visit.resume(&stand));
+        self.inner.borrow_mut().restock(id);
     }
 
     /// Sets one value of what is shown, by its JSON pointer, to a value given as JSON.
@@ -635,6 +675,7 @@ impl Reader {
         }
         let mut inner = self.inner.borrow_mut();
         let inner = &mut *inner;
+        *self.device.borrow_mut() = gpu.device.clone();
         inner.gpu = gpu;
         for stocked in inner.stocks.values_mut() {
             let recovered = stocked.stock.recover(inner.gpu.clone());
@@ -664,6 +705,12 @@ impl Reader {
         let shown = inner.shown.get_mut(&id);
         shown.map_or_else(T::default, |shown| act(&mut shown.picture.visit))
     }
+}
+
+/// The pictures of a stock.
+fn pictures_of(shown: &BTreeMap<u32, Shown>, stock: u32) -> Vec<u32> {
+    let of_stock = shown.iter().filter(|(_, shown)| shown.stock == stock);
+    of_stock.map(|(id, _)| *id).collect()
 }
 
 async fn open_gpu() -> Result<Gpu, JsValue> {
@@ -864,10 +911,12 @@ impl Inner {
             let mut inner = inner.borrow_mut();
             let inner = &mut *inner;
             if let Some(shown) = inner.shown.get_mut(&id) {
+                inner.at_work.set(vec![id]);
                 shown.picture.take_bent(answer);
                 if let Some(stocked) = inner.stocks.get_mut(&shown.stock) {
                     shown.picture.show_finer(&mut stocked.stock);
                 }
+                inner.at_work.take();
             }
             inner.on_news.clone()
         };
@@ -918,7 +967,9 @@ impl Inner {
                     let mut inner = inner.borrow_mut();
                     let inner = &mut *inner;
                     if let Some(stocked) = inner.stocks.get_mut(&stock) {
+                        inner.at_work.set(pictures_of(&inner.shown, stock));
                         stocked.stock.take(event);
+                        inner.at_work.take();
                     }
                     inner.on_news.clone()
                 };
@@ -973,9 +1024,12 @@ impl Inner {
                     let outcome = field(&worker, &want, address).await;
                     let on_news = {
                         let mut inner = inner.borrow_mut();
+                        let inner = &mut *inner;
                         if let Some(stocked) = inner.stocks.get_mut(&id) {
+                            inner.at_work.set(pictures_of(&inner.shown, id));
                             stocked.fields.retain(|other| *other != want);
                             stocked.stock.take_field(&want, outcome);
+                            inner.at_work.take();
                         }
                         inner.on_news.clone()
                     };

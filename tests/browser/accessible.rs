@@ -259,7 +259,7 @@ fn the_authors_controls_are_elements_for_who_asks() {
 }
 
 /// Shows the page as on a medium (`""` for the screen) with these preferences.
-async fn emulate(tab: &Tab, medium: &str, features: &[(&str, &str)]) {
+pub(crate) async fn emulate(tab: &Tab, medium: &str, features: &[(&str, &str)]) {
     let features = features.iter().map(|(name, value)| MediaFeature {
         name: (*name).to_owned(),
         value: (*value).to_owned(),

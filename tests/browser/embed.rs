@@ -1003,7 +1003,7 @@ fn wrong_embeds_say_so_and_leave_the_others_running() {
 }
 
 /// What is seen of an embed in the page.
-async fn part_of(tab: &Tab, embed: &str, name: &str) -> image::RgbaImage {
+pub(crate) async fn part_of(tab: &Tab, embed: &str, name: &str) -> image::RgbaImage {
     tab.eval::<bool>(&format!(
         "({embed}.shadowRoot.querySelector('.stage').scrollIntoView(), true)"
     ))

@@ -124,6 +124,39 @@ fn a_frame_is_told_what_to_do_by_its_parent_alone() {
     });
 }
 
+/// embed.html from another host in a page whose policy forbids everything but that frame and a script that listens.
+#[test]
+fn a_frame_from_another_host_needs_frame_src_alone() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let far = session.server.address();
+        let other = session.server.beside();
+        let own = other.address();
+        let link = payload(LESSON);
+        other.add("posted.js", b"window.posted = []; addEventListener('message', ({ data, origin }) => posted.push([origin, data]));".to_vec());
+        let policy = format!("default-src 'none'; script-src 'self'; frame-src {far}");
+        let page = format!(
+            "<!doctype html><html lang=en><meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\"><title>Host</title><script src=posted.js></script><iframe id=it width=300 height=600 src=\"{far}/embed.html?parent={own}#{link}\"></iframe>"
+        );
+        other.add("host.html", page.into_bytes());
+        let address = format!("{own}/host.html");
+        let tab = session.open_coarse_at(&address, (320, 640)).await;
+        let has_come = format!(
+            "[...{}, ...{}].length > 0",
+            events("ready"),
+            events("error")
+        );
+        tab.wait_until(&has_come, 180).await;
+        let faults: serde_json::Value = tab.eval(&events("error")).await;
+        assert_eq!(faults, serde_json::json!([]));
+        let origins: Vec<String> = tab
+            .eval("[...new Set(posted.map(([origin]) => origin))]")
+            .await;
+        assert_eq!(origins, [far]);
+        tab.picture("frame_far").await;
+        tab.assert_no_complaints().await;
+    });
+}
+
 /// The element's script from another host, whose workers a browser refuses to start.
 #[test]
 fn the_element_comes_from_another_host() {

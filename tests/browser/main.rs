@@ -10,6 +10,7 @@ mod compare;
 #[path = "../support/data.rs"]
 mod data;
 mod embed;
+mod faults;
 mod figures;
 mod files;
 mod film;

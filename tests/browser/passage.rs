@@ -1,6 +1,7 @@
 //! Passages of a lesson in the reader: captions with the picture that they belong to.
 
-use super::embed::{open_coarse, ready, rests_quietly};
+use super::accessible::emulate;
+use super::embed::{open_coarse, ready, rests_at, rests_quietly};
 use super::*;
 use fabrica::data::VolumeBuilder;
 use fabrica::document::Lesson;
@@ -85,6 +86,80 @@ fn captions_go_with_the_pictures_of_a_passage() {
         println!("the worst end is {worst} pixels off");
         assert!(worst <= 1.4, "{worst} pixels");
 
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// Who wants less motion sees steps follow each other at once, and nothing plays by itself. Who changes her mind sees
+/// passages.
+#[test]
+fn steps_are_cut_where_less_motion_is_wanted() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let lesson = format!("src=\"#{}\" controls>", payload(CARRIED));
+        let tab = open_coarse(&session, &[lesson], "", (240, 560)).await;
+        emulate(&tab, "", &[("prefers-reduced-motion", "reduce")]).await;
+        ready(&tab, 1).await;
+        rests_quietly(&tab).await;
+        assert!(tab.eval::<bool>(TRACK).await);
+        let at_rest: (u32, String) = tab
+            .eval(
+                "[e0.step, e0.shadowRoot.querySelector('[part~=play]').getAttribute('aria-label')]",
+            )
+            .await;
+        assert_eq!(at_rest, (0, "Play".to_owned()), "nothing plays by itself");
+        for step in [1, 2] {
+            tab.eval::<bool>("(e0.next(), true)").await;
+            rests_at(&tab, "e0", step).await;
+        }
+        // Played on wish, a lesson after its last step begins at its start, and goes on by cuts.
+        tab.eval::<bool>("(e0.play(), true)").await;
+        tab.wait_until("e0.step === 1", 60).await;
+        tab.eval::<bool>("(e0.pause(), true)").await;
+        rests_quietly(&tab).await;
+        let places: Vec<f32> = tab.eval("track.map(([position]) => position)").await;
+        let between = places.iter().find(|at| at.fract() != 0.0);
+        assert!(between.is_none() && places.contains(&2.0), "{places:?}");
+
+        emulate(&tab, "", &[]).await;
+        tab.eval::<bool>("(track.length = 0, e0.next(), true)")
+            .await;
+        rests_at(&tab, "e0", 2).await;
+        let passes: bool = tab
+            .eval("track.some(([position]) => position % 1 !== 0)")
+            .await;
+        assert!(passes, "a passage is tracked");
+        tab.assert_no_complaints().await;
+    });
+}
+
+/// A caption whose tissue a step cuts away stays in the list, which says so in the page's language.
+#[test]
+fn the_list_of_captions_says_what_was_cut_away() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let json = r#"{"fabrica":1,"subject":{"builtin":"cube"},"templates":[{"kind":"cut","at":[0,0,0.5],"size":[2,2,0.6],"enabled":false}],"labels":[{"at":[0.3,0.49,0.4],"text":"Lid"},{"at":[-0.3,0.49,-0.3],"text":"Wall"}],"steps":[{"set":{"/templates/0/enabled":true}}]}"#;
+        let lesson = format!("src=\"#{}\" controls>", payload(json));
+        let tab = open_coarse(&session, &[lesson], "", (240, 560)).await;
+        ready(&tab, 1).await;
+        let list = "e0.shadowRoot.querySelector('ol[part=captions]')";
+        let texts = format!("[...{list}.querySelectorAll('li')].map((it) => it.textContent)");
+        assert_eq!(tab.eval::<Vec<String>>(&texts).await, ["Lid", "Wall"]);
+        tab.eval::<bool>("(e0.next(), true)").await;
+        rests_at(&tab, "e0", 1).await;
+        let after: Vec<String> = tab.eval(&texts).await;
+        assert_eq!(after, ["Lid (cut away)", "Wall"]);
+        let seen: [bool; 2] = tab
+            .eval(&format!(
+                "[...{list}.querySelectorAll('li')].map((it) => !it.classList.contains('absent'))"
+            ))
+            .await;
+        assert_eq!(seen, [false, true], "for screen readers alone");
+        let name: String = tab
+            .eval(&format!("{list}.getAttribute('aria-label')"))
+            .await;
+        assert_eq!(name, "Captions");
+        tab.eval::<bool>("(e0.lang = 'de', true)").await;
+        tab.wait_until(&format!("{texts}[0] === 'Lid (weggeschnitten)'"), 30)
+            .await;
         tab.assert_no_complaints().await;
     });
 }

@@ -13,6 +13,9 @@ let isRefused = false;
  * page itself. Browsers tell that when the worker is made, or by an event before it has said anything.
  */
 export class Background {
+  /** Those that have not been ended. */
+  static living = new Set();
+
   onmessage = null;
   onerror = null;
   #worker = null;
@@ -24,6 +27,7 @@ export class Background {
   #bender = null;
 
   constructor() {
+    Background.living.add(this);
     if (isRefused) return this.#stayHere();
     try {
       this.#worker = new Worker(WORKER, { type: "module" });
@@ -45,6 +49,7 @@ export class Background {
 
   terminate() {
     this.#hasEnded = true;
+    Background.living.delete(this);
     this.#worker?.terminate();
     this.#channel?.port1.close();
     this.#unanswered = [];

@@ -3,7 +3,7 @@
 import { Captions } from "./captions.js";
 import { Controls } from "./controls.js";
 import { partOf } from "../parts.js";
-import { askEarly, bindings, seconds, theEngine } from "./engine.js";
+import { askEarly, bindings, isTrap, seconds, theEngine } from "./engine.js";
 import { Hands } from "./hands.js";
 import { Marks } from "./marks.js";
 import { STYLE } from "./style.js";
@@ -49,8 +49,9 @@ export class Embed {
   isSeen = true;
   isWalking = false;
   waits = false;
-  isReady = false;
 
+  /** The whole picture was there once. */
+  #isWhole = false;
   #host;
   #root;
   #engine = null;
@@ -69,8 +70,11 @@ export class Embed {
   #lang = "en";
   /** Where the document came from: its text, its base and, if it has one, its address. */
   #from = null;
-  /** The host that its reader has agreed to fetch from. */
-  #allowed = null;
+  /** The hosts that its reader has agreed to fetch from. */
+  #allowed = new Set();
+  /** Files that its reader has given, and whether they are due again. */
+  #files = [];
+  #isFileDue = false;
   /** A question or a fault stands there that the picture before, which may still be drawn, knows nothing of. */
   #isTold = false;
   #presentation = null;
@@ -93,6 +97,9 @@ export class Embed {
   }
   get position() {
     return this.#state.position;
+  }
+  get isReady() {
+    return this.#isWhole && this.#engine !== null;
   }
   get isPlaying() {
     return this.#state.playing;
@@ -122,7 +129,7 @@ export class Embed {
     try {
       this.#engine.reader.set(this.id, pointer, JSON.stringify(value) ?? "null");
     } catch (error) {
-      this.#tell("error", { message: String(error.message ?? error) });
+      if (this.#engine) this.#tell("error", { message: String(error.message ?? error) });
       throw new Error(String(error.message ?? error));
     }
     this.#heedTexts();
@@ -334,26 +341,65 @@ export class Embed {
     const wanted = [this.#wanted, source.step, outline.step].find((step) => Number.isFinite(step));
     this.#wanted = null;
     const step = Math.min(Math.max(Math.round(wanted), 0), outline.steps.length);
-    const canvas = document.createElement("canvas");
-    canvas.part = "picture";
-    canvas.setAttribute("role", "img");
-    const before = this.id;
-    if (this.#allowed) engine.reader.allow_host(this.#allowed);
-    this.id = engine.add(this, canvas, { text: source.text, base, step });
+    this.#enter(engine, { text: source.text, base, address: source.address }, step);
+    this.#files = [];
     this.#presentation?.leave?.();
-    this.#engine = engine;
-    this.#from = { text: source.text, base, address: source.address };
-    if (before) engine.drop(before);
-    // The picture before stays until there is another.
-    this.#parts.before?.remove();
-    this.#parts.before = this.#parts.canvas;
-    this.#parts.stage.prepend(canvas);
-    this.#parts.canvas = canvas;
     this.#state = { ...NOWHERE, step };
-    this.isReady = false;
+    this.#isWhole = false;
     this.#told = "";
     this.dress();
     this.#wake();
+  }
+
+  /** Adds a picture at a step to the engine. The one before stays until there is another. */
+  #enter(engine, from, step) {
+    const { canvas: old, stage } = this.#parts;
+    const canvas = document.createElement("canvas");
+    canvas.part = "picture";
+    canvas.setAttribute("role", "img");
+    if (old) canvas.setAttribute("aria-label", old.getAttribute("aria-label"));
+    const before = this.id;
+    for (const host of this.#allowed) engine.reader.allow_host(host);
+    this.id = engine.add(this, canvas, { ...from, step });
+    this.#engine = engine;
+    this.#from = from;
+    if (before) engine.drop(before);
+    this.#parts.before?.remove();
+    this.#parts.before = old;
+    stage.prepend(canvas);
+    this.#parts.canvas = canvas;
+  }
+
+  /** The program is begun anew after a fault of another picture: this one comes back to where its reader stood. */
+  async revive() {
+    const [opening, { step, stand }] = [this.#opening, this.#state];
+    this.#leave();
+    try {
+      const engine = await theEngine();
+      try {
+        // Meanwhile it may have ended, or shows something else.
+        if (opening !== this.#opening || this.#engine) return;
+        this.#enter(engine, this.#from, step);
+        if (stand) engine.reader.resume(this.id, JSON.stringify(stand));
+        this.#isFileDue = this.#files.length > 0;
+      } finally {
+        engine.release();
+      }
+      if (this.#wanted !== null) this.go(this.#wanted);
+      this.#wanted = null;
+      this.#look();
+      this.#wake();
+    } catch (error) {
+      if (opening === this.#opening && !this.#engine) this.fail(error);
+    }
+  }
+
+  /** There is no engine any more that it has a picture of. */
+  #leave() {
+    this.#engine = null;
+    this.id = 0;
+    this.isDirty = false;
+    clearTimeout(this.#timer);
   }
 
   /** Nothing is fetched from another host than those of the page and of this program before the reader agrees. */
@@ -363,7 +409,8 @@ export class Embed {
     this.#build();
     this.#isTold = true;
     await new Promise((agree) => this.#ask(this.#words.host(host), this.#words.fetch, agree));
-    [this.#isTold, this.#allowed] = [false, host];
+    this.#isTold = false;
+    this.#allowed.add(host);
   }
 
   /** Gives back what only this embed has used. */
@@ -536,7 +583,7 @@ export class Embed {
   /** The first whole picture takes the place of the poster, one frame after it is there. */
   #reveal() {
     if (this.#look().failed) return;
-    this.isReady = true;
+    this.#isWhole = true;
     requestAnimationFrame(() => {
       this.#parts.view?.classList.add("ready");
       this.#tell("ready", { step: this.step });
@@ -571,7 +618,7 @@ export class Embed {
     const { host, file, failed, troubles, progress } = this.#state;
     const { words } = this.#parts;
     if (failed && !hadFailed && !file) words.textContent = `${this.#words.cannot} ${troubles.at(-1) ?? ""}`;
-    else if (host) this.#ask(this.#words.host(host), this.#words.fetch, () => this.#engine.reader.allow(this.id));
+    else if (host) this.#askHost(host);
     else if (file) this.#askFile();
     else if (!this.isReady && progress !== null) this.#wait(progress);
     else if (!failed) words.hidden = true;
@@ -634,16 +681,30 @@ export class Embed {
     words.hidden = false;
   }
 
+  #askHost(host) {
+    this.#ask(this.#words.host(host), this.#words.fetch, () => {
+      this.#allowed.add(host);
+      this.#engine?.reader.allow(this.id);
+    });
+  }
+
   #askFile() {
+    if (this.#isFileDue) return this.#giveFiles();
     this.#ask(this.#words.file, this.#words.choose, () => {
       const chooser = document.createElement("input");
       Object.assign(chooser, { type: "file", multiple: true });
       chooser.onchange = () => {
-        this.#engine?.reader.give(this.id, [...chooser.files]);
-        this.#wake();
+        this.#files = [...chooser.files];
+        this.#giveFiles();
       };
       chooser.click();
     });
+  }
+
+  #giveFiles() {
+    this.#isFileDue = false;
+    this.#engine?.reader.give(this.id, this.#files);
+    this.#wake();
   }
 
   /** Title, caption and steps as text, where nothing can be drawn. */
@@ -661,13 +722,15 @@ export class Embed {
 
   /** What went wrong is told in the embed and by `error`. */
   fail(error) {
-    const message = String(error?.message ?? error);
     this.#heedLanguage();
+    const hasStopped = isTrap(error);
+    const message = hasStopped ? this.#words.stopped : String(error?.message ?? error);
     this.#build();
     const { words, view } = this.#parts;
+    if (hasStopped && !words.hidden && words.textContent === message) return; // Told already.
     if (!view.classList.contains("words-only")) {
       delete words.dataset.asks;
-      words.textContent = `${this.#words.cannot} ${message}`;
+      words.textContent = hasStopped ? message : `${this.#words.cannot} ${message}`;
       words.hidden = false;
     }
     this.#tell("error", { message });
@@ -680,12 +743,10 @@ export class Embed {
     if (layer) layer.style.visibility = "hidden";
   }
 
-  /** The device is gone for good; another `src` starts anew. */
-  lose() {
-    this.#engine = null;
-    this.id = 0;
-    this.isDirty = false;
-    this.fail(new Error(this.#words.lost));
+  /** The device is gone for good, or the program has stopped at this picture; another `src` starts anew. */
+  lose(error = new Error(this.#words.lost)) {
+    this.#leave();
+    this.fail(error);
   }
 
   #tell(name, detail) {

@@ -16,15 +16,33 @@ const WAITS = 8;
 const TRIES = [0, 1, 4];
 /** How often a device may be lost in a row before a picture is whole: what is too much for it will be too much again. */
 const MOST_LOSSES = 3;
+/** How often the program is begun anew within so many seconds after a fault: a third one is no fault of one picture alone. */
+const MOST_FAULTS = 2;
+const MINUTE = 60;
 
 const beside = (name) => new URL(`../${name}`, import.meta.url).href;
 
+/** Whether an error is a fault of the program that has ended it: nothing of it can be called any more. */
+export const isTrap = (error) =>
+  error instanceof WebAssembly.RuntimeError || /call stack|too much recursion/i.test(error?.message ?? "");
+
 let program;
+/** Programs given up after a fault. The same address would be the same program to the browser. */
+let givenUp = 0;
+/** Ends the wait for an engine whose program has stopped. */
+let halt = () => {};
+
 /** The reader's program, fetched once; a failed fetch is tried again the next time. */
 export function bindings() {
-  program ??= import("../fabrica_reader.js")
+  const number = givenUp;
+  program ??= import(`../fabrica_reader.js${number ? `?${number}` : ""}`)
     .then(async (found) => {
       await found.default({ module_or_path: beside("fabrica_reader_bg.wasm") });
+      found.on_panic((text) => {
+        console.error(`Fabrica: ${text}`);
+        // Whoever has called the program hears of the trap first, and knows what it was at.
+        queueMicrotask(() => number === givenUp && stopped(new WebAssembly.RuntimeError(text)));
+      });
       return found;
     })
     .catch((error) => {
@@ -32,6 +50,45 @@ export function bindings() {
       throw new Error(`The viewer could not be fetched (${error.message ?? error}).`);
     });
   return program;
+}
+
+/** The program has stopped, and nobody knows at what. */
+function stopped(error) {
+  if (running) return running.stop(error);
+  giveUp();
+  halt(error);
+}
+
+function giveUp() {
+  program = undefined;
+  givenUp += 1;
+}
+
+/** What is still to be had of a program that has stopped. */
+function attempt(act) {
+  try {
+    return act();
+  } catch {
+    return undefined;
+  }
+}
+
+/** The reader, whose faults are told, with the first argument of the call: mostly a picture. */
+function guarded(reader, tell) {
+  return new Proxy(reader, {
+    get(target, name) {
+      const found = target[name];
+      if (typeof found !== "function") return found;
+      return (...args) => {
+        try {
+          return found.apply(target, args);
+        } catch (error) {
+          if (isTrap(error)) tell(error, args[0]);
+          throw error;
+        }
+      };
+    },
+  });
 }
 
 /** A part that was asked for before there is an engine. */
@@ -52,6 +109,10 @@ function takeEarly(part) {
 }
 
 let engine;
+/** The engine itself while it runs. */
+let running = null;
+/** When programs have stopped because of a fault, seconds. */
+let faults = [];
 /**
  * The page's engine: started by the first picture, ended with the last. `part` is the part of the program that the first one's
  * subject needs, if that is known: it is on its way while the device is opened.
@@ -74,18 +135,27 @@ async function start(part) {
   const early = takeEarly(part);
   const made = new Engine();
   try {
-    made.reader = await Reader.start(() => new Background(), () => made.hear());
+    const halted = new Promise((_, fail) => (halt = fail));
+    const started = Reader.start(() => new Background(), () => made.hear());
+    made.reader = guarded(await Promise.race([started, halted]), (error, id) => made.stop(error, id));
   } catch (error) {
     early?.worker.terminate();
     throw error;
   }
+  running = made;
   if (early) made.reader.lend(early.part, early.worker);
   made.watch();
   const query = matchMedia("(prefers-reduced-motion: reduce)");
   const heed = () => made.reader?.set_less_motion(query.matches);
   heed();
   query.addEventListener("change", heed);
-  made.forget = () => query.removeEventListener("change", heed);
+  // A trap in an answer of the browser, that is no panic.
+  const hear = ({ error }) => isTrap(error) && error.stack?.includes("fabrica_reader") && made.stop(error);
+  addEventListener("error", hear);
+  made.forget = () => {
+    query.removeEventListener("change", heed);
+    removeEventListener("error", hear);
+  };
   return made;
 }
 
@@ -93,6 +163,8 @@ export const seconds = () => performance.now() * 1e-3;
 
 class Engine {
   reader = null;
+  /** Ends what it hears of the page. */
+  forget = () => {};
   /** Embeds that have asked for the engine and have not added their picture yet. */
   claims = 0;
   #restarting = Promise.resolve();
@@ -136,14 +208,43 @@ class Engine {
 
   #endUnused() {
     if (this.#embeds.size > 0 || this.claims > 0 || !this.reader) return;
-    cancelAnimationFrame(this.#frame);
-    engine = undefined;
-    this.forget();
-    const reader = this.reader;
-    this.reader = null;
+    const reader = this.#end();
     reader.destroy();
     // A device that is being opened again is given back first.
     this.#restarting.finally(() => reader.free());
+  }
+
+  #end() {
+    cancelAnimationFrame(this.#frame);
+    engine = undefined;
+    running = null;
+    this.forget();
+    const reader = this.reader;
+    this.reader = null;
+    return reader;
+  }
+
+  /**
+   * The program has stopped because of a fault. The pictures that it was at keep what they show; the others come back in a
+   * program that is begun anew, unless that has become too much. Without `id` the program itself may know what it was at.
+   */
+  stop(error, id) {
+    if (!this.reader) return;
+    console.error("Fabrica:", error);
+    const embeds = [...this.#embeds];
+    this.#embeds.clear();
+    const reader = this.#end();
+    giveUp();
+    const own = embeds.some((embed) => embed.id === id) ? [id] : [...(attempt(() => reader.at_work()) ?? [])];
+    attempt(() => reader.give_up());
+    for (const worker of Background.living) worker.terminate();
+    const now = seconds();
+    faults = [...faults.filter((time) => now - time < MINUTE), now];
+    for (const embed of embeds) {
+      embed.falter();
+      if (own.includes(embed.id) || faults.length > MOST_FAULTS) embed.lose(error);
+      else embed.revive();
+    }
   }
 
   /** The picture that the reader turns to keeps what it needs to be drawn at once. */
@@ -175,6 +276,7 @@ class Engine {
     try {
       act();
     } catch (error) {
+      if (!this.reader) return; // It has been told.
       embed.isDirty = false;
       embed.fail(error);
     }
@@ -194,8 +296,14 @@ class Engine {
 
   #draw() {
     this.#frame = 0;
-    if (this.reader.is_lost()) return;
-    const isBusy = this.reader.tick(REST);
+    let isBusy;
+    try {
+      if (this.reader.is_lost()) return;
+      isBusy = this.reader.tick(REST);
+    } catch (error) {
+      if (this.reader) throw error;
+      return; // The program has stopped, which has been told.
+    }
     if (isBusy || this.#wasBusy) {
       for (const embed of this.#embeds) embed.isDirty ||= embed.waits;
     }

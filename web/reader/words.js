@@ -45,6 +45,7 @@ const WORDS = {
     choose: "Choose the file",
     cannot: "This illustration cannot be shown.",
     lost: "The graphics device was lost. Load the page again.",
+    stopped: "This illustration stopped because of a fault in the viewer.",
   },
   de: {
     illustration: "Anatomische Abbildung",
@@ -90,6 +91,7 @@ const WORDS = {
     choose: "Datei wählen",
     cannot: "Diese Abbildung kann nicht gezeigt werden.",
     lost: "Das Grafikgerät ging verloren. Bitte die Seite neu laden.",
+    stopped: "Diese Abbildung wurde wegen eines Fehlers im Programm angehalten.",
   },
   es: {
     illustration: "Ilustración anatómica",
@@ -135,6 +137,7 @@ const WORDS = {
     choose: "Elegir el archivo",
     cannot: "Esta ilustración no se puede mostrar.",
     lost: "Se perdió el dispositivo gráfico. Cargue la página de nuevo.",
+    stopped: "Esta ilustración se detuvo por un fallo del programa.",
   },
   zh: {
     illustration: "解剖插图",
@@ -180,6 +183,7 @@ const WORDS = {
     choose: "选择文件",
     cannot: "无法显示此插图。",
     lost: "图形设备已丢失。请重新加载页面。",
+    stopped: "由于程序故障，此插图已停止。",
   },
 };
 
