@@ -300,8 +300,8 @@ impl Want {
 }
 
 /// Everything that an illustration needs from outside: its subject first, then label volumes, then fields of templates
-/// that act, then further meshes of the subject, objects and meshes of tools. A file that is meant twice and read in one
-/// way is wanted once in each role.
+/// that act, then further meshes of the subject, objects and meshes of tools. A file that is meant twice and read in
+/// one way is wanted once in each role.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wanted(pub Vec<Want>);
 

@@ -219,9 +219,10 @@ fn meshes_are_swept_as_their_grids() {
             other["path"] = json!([[0.2, 0.3, 0.4], [0.7, 0.6, 0.5]]);
             tools.extend([other, tool(&mut random, 1 + round % 5)]);
         }
+        let mirror = ["", "x"][round % 2];
         let templates = json!([{ "kind": "sweep", "size": [1, 0.8, 0.9],
             "rotate": random.rotation().to_array().map(short),
-            "params": { "mirror": ["", "x"][round % 2], "tools": tools } }]);
+            "params": { "mirror": mirror, "tools": tools } }]);
         let document = document(templates);
         let text: Value = serde_json::from_str(&document.to_json()).expect("its own text");
         let of = &document.illustration().templates[0];

@@ -5,6 +5,7 @@ pub(crate) mod filling;
 pub(crate) mod frame;
 pub mod gpu_types;
 pub(crate) mod kept;
+pub(crate) mod laid;
 pub(crate) mod look;
 pub(crate) mod marks;
 pub(crate) mod mesh_look;
