@@ -20,7 +20,8 @@ const TOOL_ROWS: usize = 6;
 const SHEARED: f64 = 0.14;
 /// Bits of the nodes of a grid along one axis, as in shaders/displace/tools.wgsl.
 const NODE_BITS: u32 = 6;
-/// What is not there yet holds nothing: as a ball, from which everything is far away.
+/// What is not there yet holds nothing: as a ball, from which everything is far away. Its number, and its form.
+const NOTHING_NUMBER: usize = 0;
 const NOTHING: [f32; 4] = [-1e6, 0.0, 0.0, 0.0];
 /// Reach is rounded up by this part of it, for floats of 32 bits.
 const ROUNDING: f64 = 1e-5;
@@ -438,10 +439,16 @@ impl<'a> Sweeping<'a> {
                         let sides = x | y << NODE_BITS | z << (2 * NODE_BITS);
                         [first as f32, sides as f32, longest * unit, 0.0]
                     }
-                    None => NOTHING,
+                    None => {
+                        number = NOTHING_NUMBER;
+                        NOTHING
+                    }
                 },
                 // No sweep has one.
-                ToolShape::Clay { .. } => NOTHING,
+                ToolShape::Clay { .. } => {
+                    number = NOTHING_NUMBER;
+                    NOTHING
+                }
                 ToolShape::Curve { radius, .. } => {
                     [radius * unit, points as f32, count as f32, 0.0]
                 }
@@ -457,9 +464,6 @@ impl<'a> Sweeping<'a> {
                 }
                 ToolShape::Torus { ring, radius } => [radius * unit, ring * unit, 0.0, 0.0],
             };
-            if form == NOTHING {
-                number = 0;
-            }
             points += count;
             rows.push(form);
             rows.push([number as f32, (1.0 / mover.coat) as f32, 0.0, 0.0]);
