@@ -247,7 +247,8 @@ impl Visit {
         })
     }
 
-    /// Brings a visit of the same lesson that was just opened to where another one stood. What does not fit is left out.
+    /// Brings a visit of the same lesson that was just opened to where another one stood; what does not fit is left
+    /// out.
     pub fn resume(&mut self, stand: &Value) {
         let moved = stand["moved"].as_array().map_or(&[][..], Vec::as_slice);
         let held = stand["held"].as_u64().unwrap_or(0) as usize;

@@ -85,9 +85,9 @@ window.framesLater = async (viewer, wanted) => {
 const KNOWN_TO_BE_SLOW: &str =
     "try { localStorage.setItem('fabrica.slow', 'told'); } catch { /* a page without storage */ }";
 
-/// Pixels of a picture for one of CSS along a side, as on a page that is zoomed out: far less work for the software GPU,
-/// with the same layout. A quarter where a test is of what the page does, not of how it looks; half where pictures are
-/// compared.
+/// Pixels of a picture for one of CSS along a side, as on a page that is zoomed out: far less work for the software
+/// GPU, with the same layout. A quarter where a test is of what the page does, not of how it looks; half where pictures
+/// are compared.
 const COARSE: f32 = 0.25;
 const HALF: f32 = 0.5;
 

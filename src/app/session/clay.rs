@@ -201,7 +201,7 @@ impl ClayHand {
 /// A tool with its way, laid down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ghost {
-    /// The tool.
+    /// What moves, with its coating.
     pub tool: ClayTool,
     /// Its way. A tool with one key stays, and holds what is in it.
     pub way: ClayMove,

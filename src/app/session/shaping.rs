@@ -254,8 +254,8 @@ impl Session {
     }
 
     /// The places of tools in the clay's list, and the edit that puts those there that have none yet: in place of some
-    /// that no other stroke than that of the index uses, or behind the others. A mesh and a baked clay give way to their
-    /// own kind alone. `None` if all places are taken.
+    /// that no other stroke than that of the index uses, or behind the others. A mesh and a baked clay give way to what
+    /// is like them alone. `None` if all places are taken.
     fn places_of_tools(
         &self,
         clay: &Clay,
