@@ -581,8 +581,10 @@ impl App {
             }
             let key = shortcut.keys.logical_key;
             let is_plain = !shortcut.keys.modifiers.command;
-            // Letters belong to a text field, arrows to whatever control has the keyboard.
-            if is_plain && (is_typing || (viewport::is_widget_key(key) && !has_arrows)) {
+            // Letters belong to a text field, arrows to whatever control has the keyboard. A dot does nothing by Enter.
+            let is_enter_of_dot = key == egui::Key::Enter && points::has_keyboard(ui);
+            let is_widgets = viewport::is_widget_key(key) && !has_arrows && !is_enter_of_dot;
+            if is_plain && (is_typing || is_widgets) {
                 continue;
             }
             // A point of the transfer function and a dot in the picture are removed by the same keys as a template.

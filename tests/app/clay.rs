@@ -442,9 +442,8 @@ fn strokes_are_laid_down_and_done_together() {
     let mut window = Window::with_clay_tool(0);
     let middle = window.picture_center();
     window.press(Key::J);
-    window.drag(middle, vec2(-40.0, -30.0));
-    window.drag(middle - vec2(60.0, 30.0), vec2(-40.0, 0.0));
-    window.settle();
+    window.lay(middle, vec2(-40.0, -30.0));
+    window.lay(middle - vec2(60.0, 30.0), vec2(-40.0, 0.0));
     assert!(window.strokes().is_empty(), "nothing is done yet");
     window.look("strokes laid down");
     let keys = |window: &Window, of: &str| window.harness.query_all_by_label_contains(of).count();
@@ -465,7 +464,8 @@ fn strokes_are_laid_down_and_done_together() {
     assert!(moved.y < spot.y - 10.0, "{moved} {spot}");
     window.undo();
     assert_eq!(keys(&window, "of tool 2"), 0);
-    window.drag(middle - vec2(60.0, 30.0), vec2(-40.0, 0.0));
+    window.lay(middle - vec2(60.0, 30.0), vec2(-40.0, 0.0));
+    assert!(keys(&window, "of tool 2") >= 2, "laid down again");
     window.press(Key::Enter);
     window.wait_for_strokes(1);
     assert_eq!(window.strokes()[0].moves.len(), 2);
@@ -474,13 +474,13 @@ fn strokes_are_laid_down_and_done_together() {
     window.undo();
     window.wait_for_strokes(0);
     // Buttons do the same.
-    window.drag(middle, vec2(-40.0, -30.0));
-    window.drag(middle + vec2(0.0, 60.0), vec2(40.0, 0.0));
+    window.lay(middle, vec2(-40.0, -30.0));
+    window.lay(middle + vec2(0.0, 60.0), vec2(40.0, 0.0));
     window.click("Take back what was laid down last");
     assert_eq!(keys(&window, "of tool 2"), 0);
     window.click("Do what is laid down as one stroke");
     window.wait_for_strokes(1);
-    window.drag(middle, vec2(-40.0, -30.0));
+    window.lay(middle, vec2(-40.0, -30.0));
     window.press(Key::Escape);
     assert_eq!(keys(&window, "of tool"), 0, "dropped");
     window.click("Together");
@@ -489,6 +489,12 @@ fn strokes_are_laid_down_and_done_together() {
 }
 
 impl Window {
+    /// Draws a way that is laid down: it lies there once the picture has said where the hand was.
+    fn lay(&mut self, from: Pos2, by: Vec2) {
+        self.drag(from, by);
+        self.settle();
+    }
+
     /// The middle of a handle of the tool that is laid down.
     fn handle(&self, name: &str) -> Pos2 {
         self.harness.get_by_label(name).rect().center()
