@@ -58,7 +58,7 @@ pub use self::canvas::lettering::{Lettering, lettering};
 #[cfg(feature = "app")]
 pub use self::canvas::vectors::escaped;
 #[cfg(feature = "app")]
-pub use self::picture::host::{ask_for_frame, gpu_of};
+pub use self::picture::host::gpu_of;
 #[cfg(feature = "app")]
 pub use self::services::{
     Message, MissingDocument, SavedTo, Services, SetText, TextOver, TextToSet, WhyMissing,

@@ -19,7 +19,7 @@ use super::worker::run::{self, BendWorker, WorkerLoad};
 use super::worker::task::{ClayTask, ScanTask, Task};
 use crate::app::{
     LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, SetText, Shipped, TextOver,
-    TextToSet, Ticket, ask_for_frame,
+    TextToSet, Ticket,
 };
 use crate::assets::{BendAnswer, BendRequest, LoadEvent, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
@@ -102,19 +102,9 @@ impl Page {
     }
 
     pub(super) fn send(&mut self, message: Message) {
-        // More follows at once.
-        let is_on_its_way = matches!(
-            message,
-            Message::Load {
-                event: LoadEvent::Progress { .. } | LoadEvent::Part(_),
-                ..
-            }
-        );
         self.messages.push(message);
-        match &self.ctx {
-            Some(ctx) if is_on_its_way => ask_for_frame(ctx),
-            Some(ctx) => ctx.request_repaint(),
-            None => {}
+        if let Some(ctx) = &self.ctx {
+            ctx.request_repaint();
         }
     }
 

@@ -30,18 +30,12 @@ struct FileJob {
 /// Work that takes longer is asked for.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Asks for one frame. What egui is asked for at once it draws twice, and on a software GPU a frame of the interface
-/// takes as long as some tiles of the picture.
-pub fn ask_for_frame(ctx: &egui::Context) {
-    ctx.request_repaint_after(Duration::from_nanos(1));
-}
-
 /// Asks for a frame when it is woken.
 struct Repaint(egui::Context);
 
 impl Wake for Repaint {
     fn wake(self: Arc<Self>) {
-        ask_for_frame(&self.0);
+        self.0.request_repaint();
     }
 }
 
