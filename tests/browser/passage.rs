@@ -120,7 +120,10 @@ fn steps_are_cut_where_less_motion_is_wanted() {
         let between = places.iter().find(|at| at.fract() != 0.0);
         assert!(between.is_none() && places.contains(&2.0), "{places:?}");
 
-        emulate(&tab, "", &[]).await;
+        emulate(&tab, "", &[("prefers-reduced-motion", "no-preference")]).await;
+        let wants_less = "matchMedia('(prefers-reduced-motion: reduce)').matches";
+        tab.wait_until(&format!("!{wants_less}"), 20).await;
+        tab.frames(3).await;
         tab.eval::<bool>("(track.length = 0, e0.next(), true)")
             .await;
         rests_at(&tab, "e0", 2).await;
