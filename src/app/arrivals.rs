@@ -273,10 +273,11 @@ impl App {
         if !is_here {
             return;
         }
-        if let SubjectRef::Clay(clay) = self.session.shown().subject_shown()
-            && !self.session.awaits_clay()
-            && self.assets.has_new_tools(&clay)
-        {
+        let has_new_tools = match &self.session.shown().subject {
+            SubjectRef::Clay(clay) => self.assets.has_new_tools(clay),
+            _ => false,
+        };
+        if has_new_tools && !self.session.awaits_clay() {
             // The clay is shaped again, with the tools that have come.
             self.session.ask_for_subject_again();
             return;

@@ -6,8 +6,8 @@ use super::naming::rename;
 use super::news::ResourceNews;
 use super::want::{OtherFile, Role, Source, Want, Wanted, tool_files};
 use crate::data::{
-    DistanceGrid, FieldKey, FieldSamples, Grid, Grids, ObjectMeshes, Resources, Segment,
-    Segmentation, Subject, Surface,
+    FieldKey, FieldSamples, Grid, Grids, MeshGrids, ObjectMeshes, Resources, Segment, Segmentation,
+    Subject, Surface, share_grids,
 };
 use crate::document::{
     Clay, Illustration, SegmentsRef, SubjectBox, SubjectRef, TemplateData, ToolFile,
@@ -49,9 +49,6 @@ impl Data {
     }
 }
 
-/// Grids of tools that are meshes, by the keys of their files.
-type Meshes = Vec<(String, Arc<DistanceGrid>)>;
-
 /// A file that has arrived; found again by the hash of its bytes or by the address that it was fetched from.
 #[derive(Clone, Debug)]
 struct Held<T> {
@@ -79,8 +76,8 @@ pub struct Assets {
     segments: Vec<Held<LabelFile>>,
     fields: Vec<Held<FieldFile>>,
     /// The grids with which the clay was made, and those with which it was last asked for.
-    clay_meshes: Meshes,
-    asked_meshes: Meshes,
+    clay_meshes: MeshGrids,
+    asked_meshes: MeshGrids,
     /// Meshes of objects, of tools and those beside the subject, each with the want that it met.
     meshes: Vec<(Want, Arc<Surface>)>,
     /// It was told that the meshes beside the present subject are not drawn.
@@ -99,15 +96,6 @@ pub struct Assets {
     thin: Vec<(usize, String)>,
     /// Keys of files of tools of which it was told that they have no inside.
     sheets: Vec<String>,
-}
-
-/// True if both share their grids in memory.
-fn are_same(a: &Meshes, b: &Meshes) -> bool {
-    let pairs = a.iter().zip(b);
-    a.len() == b.len()
-        && pairs
-            .into_iter()
-            .all(|((key, grid), (other, theirs))| key == other && Arc::ptr_eq(grid, theirs))
 }
 
 impl Assets {
@@ -181,7 +169,7 @@ impl Assets {
 
     /// True if meshes have come since a clay was last asked for that its tools are made of.
     pub fn has_new_tools(&self, clay: &Clay) -> bool {
-        !are_same(&self.meshes_of(clay), &self.asked_meshes)
+        !share_grids(&self.meshes_of(clay), &self.asked_meshes)
     }
 
     fn with_meshes(&self, want: Want) -> Want {
@@ -193,12 +181,12 @@ impl Assets {
     }
 
     /// The grids of a clay's tools that are there, each once.
-    fn meshes_of(&self, clay: &Clay) -> Meshes {
+    fn meshes_of(&self, clay: &Clay) -> MeshGrids {
         self.grids_of(clay.tool_files())
     }
 
-    fn grids_of<'a>(&self, files: impl Iterator<Item = &'a ToolFile>) -> Meshes {
-        let mut meshes = Meshes::new();
+    fn grids_of<'a>(&self, files: impl Iterator<Item = &'a ToolFile>) -> MeshGrids {
+        let mut meshes = MeshGrids::new();
         for file in files {
             if let (Some(key), Some(want)) = (file.key(), Want::tool(file))
                 && meshes.iter().all(|(known, _)| known != key)
@@ -293,7 +281,8 @@ impl Assets {
     pub fn has(&self, want: &Want) -> bool {
         match want.role {
             Role::Subject => {
-                let is_made = |clay: &Arc<Clay>| are_same(&self.meshes_of(clay), &self.clay_meshes);
+                let is_made =
+                    |clay: &Arc<Clay>| share_grids(&self.meshes_of(clay), &self.clay_meshes);
                 self.subject.is_some()
                     && self.clay.as_ref() == want.clay()
                     && self.clay.as_ref().is_none_or(is_made)
@@ -626,10 +615,8 @@ fn number_of_own(segment: &Segment) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::mesh::testing::cube;
-    use crate::data::{
-        Mesh, MeshPart, SubjectPart, SubjectSink as _, Surface, Volume, VolumeBuilder, Voxels,
-    };
+    use crate::data::mesh::testing::{cube, in_one_part};
+    use crate::data::{SubjectPart, SubjectSink as _, Surface, Volume, VolumeBuilder, Voxels};
     use crate::document::Document;
     use glam::{DAffine3, UVec3};
 
@@ -717,16 +704,7 @@ mod tests {
         if is_open {
             triangles.truncate(10);
         }
-        let parts = vec![MeshPart {
-            name: "cube".to_owned(),
-            triangles: 0..triangles.len(),
-        }];
-        let mesh = Mesh {
-            positions,
-            triangles,
-            parts,
-            ..Mesh::default()
-        };
+        let mesh = in_one_part(positions, triangles);
         let surface = Surface::new(&mesh, None, &mut |_| true).expect("it has a size");
         Arc::new(surface.sweeping(&mut |_| true).expect("not stopped"))
     }

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use crate::data::DistanceGrid;
+use crate::data::MeshGrids;
 use crate::document::{
     Clay, FieldRef, Illustration, MeshAxes, MeshReading, MeshRef, ObjectSource, Reading,
     SceneObject, SegmentsRef, SubjectBox, SubjectRef, TemplateData, ToolFile,
@@ -53,7 +53,7 @@ pub struct Want {
     /// and fields.
     pub reading: Reading,
     /// Of a clay the grids of its tools that are meshes, as far as they are there.
-    pub meshes: Vec<(String, Arc<DistanceGrid>)>,
+    pub meshes: MeshGrids,
 }
 
 /// The hash of an arrived file is not the one in the document.

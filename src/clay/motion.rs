@@ -1,7 +1,7 @@
 //! How a stroke moves what is near its tools: the flow of a sweep in 64 bits, with the normals of surfaces in it
 //! (spec/sweepers.md, A.1 and B.2). Places are in the clay's space.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
 use super::field::{Form, falloff};
 use super::mesh::Vertex;
@@ -122,24 +122,9 @@ impl Pose {
     }
 }
 
-fn pose_of(key: &ClayKey, turn: DQuat) -> Similarity {
-    let place = DVec3::from_array(key.at.map(|thousandth| f64::from(thousandth) / 1000.0));
-    Similarity::new(f64::from(key.percent) / 100.0, turn, place)
-}
-
 /// The poses of a tool's way.
 fn poses_of(way: &ClayMove) -> Vec<Similarity> {
-    let mut turn = DQuat::IDENTITY;
-    let keys = way.keys.iter().map(|key| {
-        let degrees = DVec3::from_array(key.turn.map(f64::from));
-        let by = Screw {
-            turn: degrees * (std::f64::consts::PI / 180.0),
-            ..Screw::NONE
-        };
-        turn = by.exp().turn * turn;
-        pose_of(key, turn)
-    });
-    let keys: Vec<Similarity> = keys.collect();
+    let keys = ClayKey::poses(&way.keys);
     if way.is_straight {
         keys
     } else {

@@ -66,8 +66,9 @@ pub use subject::{FIRST_MESH_LABEL, Space, Subject, called_as_in, with_mesh_segm
 pub use subject_builder::SubjectBuilder;
 pub use surface::{
     CARVER_MARGIN, Carver, CarverLevel, DistanceGrid, FIELD_MARGIN, FIELD_VOXELS, Grids,
-    MAX_SURFACE_SEGMENTS, Nearest, PLAIN_SRGB, Surface, SurfaceArrays, SurfaceError, SurfaceField,
-    SurfacePicture, SurfaceSegment, SurfaceTextures, Tree, TreeNode, Triangle, times_inside,
+    MAX_SURFACE_SEGMENTS, MeshGrids, Nearest, PLAIN_SRGB, Surface, SurfaceArrays, SurfaceError,
+    SurfaceField, SurfacePicture, SurfaceSegment, SurfaceTextures, Tree, TreeNode, Triangle,
+    share_grids, times_inside,
 };
 pub use time_slices::TimeSlices;
 pub use volume::{Grid, Segment, Segmentation, Volume, Voxels};

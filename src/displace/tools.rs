@@ -234,19 +234,7 @@ impl ToolFile {
 }
 
 impl ToolShape {
-    /// Names in documents of the forms that numbers alone describe.
-    pub const NAMES: [&'static str; 6] = ["ball", "ellipsoid", "capsule", "box", "torus", "curve"];
-    /// Names of all forms that tools of a sweep may have, in the order of the numbers that the shaders know them by.
-    pub const OF_SWEEPS: [&'static str; 7] = [
-        "ball",
-        "ellipsoid",
-        "capsule",
-        "box",
-        "torus",
-        "curve",
-        "mesh",
-    ];
-    /// Names of all forms that the tools of a clay may have.
+    /// Names in documents of all forms that the tools of a clay may have, by their numbers.
     pub const OF_CLAYS: [&'static str; 8] = [
         "ball",
         "ellipsoid",
@@ -257,10 +245,24 @@ impl ToolShape {
         "mesh",
         "clay",
     ];
+    /// Those of all forms that tools of a sweep may have, in the order of the numbers that the shaders know them by.
+    pub const OF_SWEEPS: [&'static str; 7] = Self::first_names();
+    /// Those of the forms that numbers alone describe.
+    pub const NAMES: [&'static str; 6] = Self::first_names();
     /// The number of a mesh.
     pub const MESH: usize = 6;
     /// Longest side of what is a grid of distances, where nothing is said of it.
     pub const LONGEST: f32 = 0.4;
+
+    const fn first_names<const N: usize>() -> [&'static str; N] {
+        let mut names = [""; N];
+        let mut i = 0;
+        while i < N {
+            names[i] = Self::OF_CLAYS[i];
+            i += 1;
+        }
+        names
+    }
 
     /// The default of the shape of a name.
     pub fn named(name: &str) -> Option<Self> {

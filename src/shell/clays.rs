@@ -10,7 +10,8 @@ use super::loading::{is_mesh_file, read_scan, slabs_in_threads as slabs};
 use crate::assets::{LoadEvent, Want};
 use crate::clay::{ClayError, MAX_FILE_TRIANGLES, Shaping};
 use crate::data::{
-    DistanceGrid, Mesh, SubjectPart, SubjectSink, Surface, SurfaceError, Volume, VolumeBuilder,
+    DistanceGrid, Mesh, MeshGrids, SubjectPart, SubjectSink, Surface, SurfaceError, Volume,
+    VolumeBuilder,
 };
 #[cfg(not(target_arch = "wasm32"))]
 use crate::document::Reading;
@@ -39,7 +40,7 @@ pub struct ClayDesk {
     start: Option<MadeStart>,
     last: Option<Arc<Clay>>,
     /// The grids of its tools that are meshes, by the keys of their files.
-    meshes: Vec<(String, Arc<DistanceGrid>)>,
+    meshes: MeshGrids,
     /// The clay of `last` after some of its strokes, the latest last.
     kept: Vec<Shaping>,
 }

@@ -8,7 +8,8 @@ use super::points::Moved;
 use super::projection::Projection;
 use super::strokes::{keys_ui, paint_move};
 use crate::app::kit::theme::over_picture as ink;
-use crate::app::session::{ClayCommand, Command, Pose, Session, poses_of};
+use crate::app::session::{ClayCommand, Command, Pose, Session};
+use crate::document::ClayKey;
 use crate::math::Similarity;
 
 /// The ghosts. Delete on a key takes all of its ghost back.
@@ -22,7 +23,7 @@ pub(crate) fn ui(ui: &Ui, view: &Projection, session: &Session, commands: &mut V
     }
     let last = session.together.ghosts.len().wrapping_sub(1);
     for (i, ghost) in session.together.ghosts.iter().enumerate() {
-        let poses = poses_of(&ghost.way.keys);
+        let poses = ClayKey::poses(&ghost.way.keys);
         let ends = [poses.first(), poses.last()];
         let count = poses.len().min(ends.len());
         for pose in ends.into_iter().take(count).flatten() {

@@ -6,6 +6,7 @@ use glam::Vec3;
 use super::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
 use crate::app::session::ClayHand;
+use crate::displace::images_of;
 use crate::document::ToolShape;
 use crate::math::Similarity;
 
@@ -54,10 +55,5 @@ pub(super) fn sides_of_tool(form: usize) -> Vec3 {
 
 /// Signs of the axes of a tool and of its mirror images.
 pub(super) fn images(mirror: [bool; 3]) -> impl Iterator<Item = Vec3> {
-    let choices = mirror.map(|is_mirrored| if is_mirrored { 2_u8 } else { 1 });
-    let sign = |i: u8| 1.0 - 2.0 * f32::from(i);
-    let [xs, ys, zs] = choices;
-    let across = (0..xs).flat_map(move |x| (0..ys).map(move |y| (x, y)));
-    let all = across.flat_map(move |(x, y)| (0..zs).map(move |z| [x, y, z]));
-    all.map(move |axes| Vec3::from_array(axes.map(sign)))
+    images_of(mirror).into_iter().map(|signs| signs.as_vec3())
 }

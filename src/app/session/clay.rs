@@ -1,12 +1,9 @@
 //! What an author holds to shape a clay, and what can be done with it, as plain data.
 
-use std::f64::consts::PI;
-
-use glam::{DQuat, DVec3, Quat, Vec3};
+use glam::{Quat, Vec3};
 
 use super::found::Found;
-use crate::document::{ClayKey, ClayMove, ClayShape, ClayTool, ToolShape};
-use crate::math::Similarity;
+use crate::document::{ClayMove, ClayShape, ClayTool, ToolShape};
 
 /// The sizes that a hand may hold, subject units.
 const SIZES: [f32; 2] = [0.01, 0.5];
@@ -205,17 +202,6 @@ pub struct Ghost {
     pub tool: ClayTool,
     /// Its way. A tool with one key stays, and holds what is in it.
     pub way: ClayMove,
-}
-
-/// How a tool stands at each of its keys.
-pub fn poses_of(keys: &[ClayKey]) -> Vec<Similarity> {
-    let mut turned = DQuat::IDENTITY;
-    let poses = keys.iter().map(|key| {
-        let [turn, at] = [key.turn, key.at].map(|parts| DVec3::from_array(parts.map(f64::from)));
-        turned = DQuat::from_scaled_axis(turn * (PI / 180.0)) * turned;
-        Similarity::new(f64::from(key.percent) / 100.0, turned, at / 1000.0)
-    });
-    poses.collect()
 }
 
 /// How a tool stands that is laid down by itself.

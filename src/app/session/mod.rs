@@ -87,7 +87,7 @@ mod recording_tests;
 mod tests;
 
 pub use self::camera::StandardView;
-pub use self::clay::{ClayCommand, ClayHand, Ghost, Pose, StrokeWay, Together, Touch, poses_of};
+pub use self::clay::{ClayCommand, ClayHand, Ghost, Pose, StrokeWay, Together, Touch};
 pub use self::clipboard::{Clipboard, Copied};
 pub use self::command::{Command, GizmoMode, PicturePaper, StepCommand};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};

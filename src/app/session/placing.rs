@@ -4,7 +4,7 @@
 use glam::{Quat, Vec2, Vec3};
 
 use super::camera;
-use super::clay::{ClayCommand, ClayHand, Ghost, Laid, Pose, StrokeWay, Touch, poses_of};
+use super::clay::{ClayCommand, ClayHand, Ghost, Laid, Pose, StrokeWay, Touch};
 use super::command::{Command, GizmoMode};
 use super::found::Found;
 use super::question::{Place, Question};
@@ -194,7 +194,7 @@ fn way(keys: Vec<ClayKey>) -> ClayMove {
 
 /// The key that comes after others with this pose of a tool whose own size is `own`.
 fn key_after(keys: &[ClayKey], pose: &Pose, own: f32) -> ClayKey {
-    let turned = poses_of(keys).last().map(|last| last.turn.as_quat());
+    let turned = ClayKey::poses(keys).last().map(|last| last.turn.as_quat());
     let turn = pose.turn * turned.unwrap_or(Quat::IDENTITY).inverse();
     let percent = (100.0 * pose.size / own).round();
     ClayKey {

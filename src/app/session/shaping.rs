@@ -187,8 +187,8 @@ impl Session {
             self.drawn_stroke = None;
             return;
         }
-        let stroke = stroke(&self.clay_hand, way, touches, &self.camera);
         let tool = self.tool_in_hand();
+        let stroke = stroke(&self.clay_hand, way, touches, &self.camera);
         if self.together.is_on && way != StrokeWay::Smooth {
             let way = stroke.and_then(|stroke| stroke.moves.into_iter().next());
             if let Some(way) = way.filter(|_| is_over) {

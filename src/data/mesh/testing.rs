@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use super::value::{Mesh, MeshPart};
+
 /// A cube of side 1 from the origin: eight vertices, x fastest, and twelve triangles, their fronts outside.
 pub(crate) fn cube() -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let bit = |i: u32, b: u32| ((i >> b) & 1) as f32;
@@ -21,4 +23,18 @@ pub(crate) fn cube() -> (Vec<Vec3>, Vec<[u32; 3]>) {
         .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
         .collect();
     (positions, triangles)
+}
+
+/// A mesh in one part.
+pub(crate) fn in_one_part(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Mesh {
+    let parts = vec![MeshPart {
+        name: "part".to_owned(),
+        triangles: 0..triangles.len(),
+    }];
+    Mesh {
+        positions,
+        triangles,
+        parts,
+        ..Mesh::default()
+    }
 }

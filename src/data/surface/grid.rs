@@ -108,12 +108,24 @@ impl DistanceGrid {
     }
 }
 
+/// Grids of meshes, by the keys of their files ([`ToolFile::key`](crate::displace::ToolFile::key)).
+pub type MeshGrids = Vec<(String, Arc<DistanceGrid>)>;
+
+/// True if two lists have the same keys and share their grids in memory.
+pub fn share_grids<K: PartialEq>(
+    a: &[(K, Arc<DistanceGrid>)],
+    b: &[(K, Arc<DistanceGrid>)],
+) -> bool {
+    let mut pairs = a.iter().zip(b);
+    a.len() == b.len() && pairs.all(|((a, one), (b, other))| a == b && Arc::ptr_eq(one, other))
+}
+
 /// The grids that the tools of a document are made of, as far as they are there. Two are equal if they share their
 /// grids in memory.
 #[derive(Clone, Debug, Default)]
 pub struct Grids {
-    /// Of meshes, by the keys of their files ([`ToolFile::key`](crate::displace::ToolFile::key)).
-    pub files: Vec<(String, Arc<DistanceGrid>)>,
+    /// The grids of mesh files, by the files they come from.
+    pub files: MeshGrids,
     /// Of the clay after so many of its strokes.
     pub baked: Vec<(u32, Arc<DistanceGrid>)>,
 }
@@ -138,13 +150,6 @@ impl Grids {
 
 impl PartialEq for Grids {
     fn eq(&self, other: &Self) -> bool {
-        fn same<K: PartialEq>(a: &[(K, Arc<DistanceGrid>)], b: &[(K, Arc<DistanceGrid>)]) -> bool {
-            let pairs = a.iter().zip(b);
-            a.len() == b.len()
-                && pairs
-                    .into_iter()
-                    .all(|((a, one), (b, other))| a == b && Arc::ptr_eq(one, other))
-        }
-        same(&self.files, &other.files) && same(&self.baked, &other.baked)
+        share_grids(&self.files, &other.files) && share_grids(&self.baked, &other.baked)
     }
 }

@@ -132,9 +132,8 @@ impl Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::mesh::testing::cube;
+    use crate::data::mesh::testing::{cube, in_one_part};
     use crate::data::surface::testing::Random;
-    use crate::data::{Mesh, MeshPart};
     use glam::DVec3;
 
     /// A ball of radius 1, by halving the edges of an octahedron.
@@ -163,16 +162,7 @@ mod tests {
     }
 
     fn surface(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Surface {
-        let parts = vec![MeshPart {
-            name: "part".to_owned(),
-            triangles: 0..triangles.len(),
-        }];
-        let mesh = Mesh {
-            positions,
-            triangles,
-            parts,
-            ..Mesh::default()
-        };
+        let mesh = in_one_part(positions, triangles);
         Surface::new(&mesh, None, &mut |_| true).expect("it has a size")
     }
 

@@ -21,7 +21,7 @@ mod winding;
 pub use arrays::SurfaceArrays;
 pub use carver::{CARVER_MARGIN, Carver, CarverLevel};
 pub use field::{FIELD_MARGIN, FIELD_VOXELS, SurfaceField, times_inside};
-pub use grid::{DistanceGrid, Grids};
+pub use grid::{DistanceGrid, Grids, MeshGrids, share_grids};
 pub use textures::{SurfacePicture, SurfaceTextures};
 pub use tree::{Tree, TreeNode};
 pub use triangle::{Nearest, Triangle};

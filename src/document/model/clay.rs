@@ -5,6 +5,8 @@ use super::clay_volume::{ClayFile, ClayVolume, VoxelSource};
 use super::mesh::{MeshParts, MeshReading, MeshRef};
 use super::reading::Reading;
 use crate::displace::{ToolFile, ToolShape};
+use crate::math::{Screw, Similarity};
+use glam::{DQuat, DVec3};
 use std::sync::Arc;
 
 /// A clay as its document describes it. Lengths are subject units: 1 is the longest side of the starting shape.
@@ -266,4 +268,22 @@ pub struct ClayKey {
     pub turn: [i32; 3],
     /// Size, per cent of the tool's own.
     pub percent: i32,
+}
+
+impl ClayKey {
+    /// How a tool stands at each of its keys, from the first on: 64-bit floats, the same bits on every machine.
+    pub fn poses(keys: &[Self]) -> Vec<Similarity> {
+        let mut turn = DQuat::IDENTITY;
+        let poses = keys.iter().map(|key| {
+            let degrees = DVec3::from_array(key.turn.map(f64::from));
+            let by = Screw {
+                turn: degrees * (std::f64::consts::PI / 180.0),
+                ..Screw::NONE
+            };
+            turn = by.exp().turn * turn;
+            let place = DVec3::from_array(key.at.map(|thousandth| f64::from(thousandth) / 1000.0));
+            Similarity::new(f64::from(key.percent) / 100.0, turn, place)
+        });
+        poses.collect()
+    }
 }

@@ -65,10 +65,8 @@ impl ClayVolume {
                 reading,
             } => {
                 set("name", json!(name));
-                for (key, given) in [("src", src), ("sha256", sha256)] {
-                    if let Some(given) = given {
-                        set(key, json!(given));
-                    }
+                for (key, given) in value::file_keys(src, sha256) {
+                    set(key, given);
                 }
                 set("frame", json!(reading.frame));
                 if let Some(raw) = &reading.raw {

@@ -62,14 +62,21 @@ pub(super) fn raw(raw: &RawVoxels) -> Value {
     value
 }
 
+/// Where a file is and what its hash is: the keys of what is given.
+pub(super) fn file_keys(
+    src: &Option<String>,
+    sha256: &Option<String>,
+) -> impl Iterator<Item = (&'static str, Value)> {
+    let keys = [("src", src), ("sha256", sha256)];
+    let given = keys.map(|(key, given)| given.as_ref().map(|given| (key, json!(given))));
+    given.into_iter().flatten()
+}
+
 /// An entry of `subject.meshes`.
 pub(super) fn mesh(mesh: &MeshRef) -> Value {
     let mut value = json!({ "name": mesh.name });
-    let files = [("src", &mesh.src), ("sha256", &mesh.sha256)];
-    for (key, file) in files {
-        if let Some(file) = file {
-            value[key] = json!(file);
-        }
+    for (key, given) in file_keys(&mesh.src, &mesh.sha256) {
+        value[key] = given;
     }
     for (key, given) in mesh_reading(&mesh.reading) {
         value[key] = given;
@@ -183,10 +190,8 @@ pub(super) fn put_shape(tool: &mut Value, shape: &ToolShape) {
             put("radius", rounded(*radius));
         }
         ToolShape::Mesh { file, longest } => {
-            for (key, given) in [("src", &file.src), ("sha256", &file.sha256)] {
-                if let Some(given) = given {
-                    put(key, json!(given));
-                }
+            for (key, given) in file_keys(&file.src, &file.sha256) {
+                put(key, given);
             }
             if !file.name.is_empty() {
                 put("name", json!(file.name));

@@ -2,19 +2,18 @@
 
 use std::sync::Arc;
 
-use crate::data::{DistanceGrid, Resources};
+use crate::data::{DistanceGrid, MeshGrids, Resources, share_grids};
 use crate::displace::GridPlace;
 use crate::document::{PlacedTemplate, TemplateData, ToolFile};
 
 /// The grids of distances that sweeps read, each once, as they lie before the steps in the texture of sweeps.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Laid(Vec<(String, Arc<DistanceGrid>)>);
+pub(crate) struct Laid(MeshGrids);
 
 /// Two are equal if they share their grids in memory.
 impl PartialEq for Laid {
     fn eq(&self, other: &Self) -> bool {
-        let pairs = self.0.iter().zip(&other.0);
-        self.0.len() == other.0.len() && pairs.into_iter().all(|((_, a), (_, b))| Arc::ptr_eq(a, b))
+        share_grids(&self.0, &other.0)
     }
 }
 

@@ -12,7 +12,7 @@ use super::reading::hint;
 use super::stop;
 use crate::assets::{Assets, Data, Role, Source, Want, Wanted};
 use crate::data::{
-    BuildError, DistanceGrid, Mesh, Reducer, Resources, Subject, SubjectBuilder, SubjectPart,
+    BuildError, Mesh, MeshGrids, Reducer, Resources, Subject, SubjectBuilder, SubjectPart,
     SubjectSink as _, Surface, TimeSlices, VolumeBuilder, VolumeLimits, segment,
 };
 use crate::document::{Clay, DRAWN_FIGURES, Illustration, Reading, ToolFile};
@@ -397,8 +397,8 @@ pub(super) fn tool_grids<'a>(
     files: impl Iterator<Item = &'a ToolFile>,
     (common, folder): (&Common, &Path),
     is_told: bool,
-) -> Result<Vec<(String, Arc<DistanceGrid>)>, MissingSubject> {
-    let mut grids: Vec<(String, Arc<DistanceGrid>)> = Vec::new();
+) -> Result<MeshGrids, MissingSubject> {
+    let mut grids = MeshGrids::new();
     let mut missing = Vec::new();
     for file in files {
         let (Some(key), Some(want)) = (file.key(), Want::tool(file)) else {

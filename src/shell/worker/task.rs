@@ -20,7 +20,7 @@ use web_sys::Blob;
 
 use super::pieces;
 use crate::assets::{BendPose, BendRequest, SegmentationsExpected, Want};
-use crate::data::{DistanceGrid, VolumeLimits};
+use crate::data::{MeshGrids, VolumeLimits};
 use crate::document::{
     Clay, MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, RawVoxels, Reading, SubjectBox,
     clay_to_text, figure_from_text, figure_to_text, is_drawn_name,
@@ -104,7 +104,7 @@ pub struct ClayTask {
     /// Its recipe as a text, see [`clay_to_text`].
     pub recipe: String,
     /// The grids of its tools that are meshes, by the keys of their files.
-    pub meshes: Vec<(String, Arc<DistanceGrid>)>,
+    pub meshes: MeshGrids,
 }
 
 impl ClayTask {
