@@ -19,6 +19,8 @@ const COLLAPSE_COS: f64 = 0.990_268_068_741_570_3;
 const FLAT_COS: f64 = 0.996_194_698_091_745_5;
 /// Cosine of the angle by which no normal of a triangle may turn: 60°.
 const TURN_COS: f64 = 0.5;
+/// Squares that differ by less than this part may be rounded to either side.
+const NEAR: f64 = 1e-12;
 /// The smallest of six angles has to grow by this part of it for a flip: rounding alone turns no edge.
 const WORTH: f64 = 1e-3;
 
@@ -98,21 +100,40 @@ struct Asked {
     short: BinaryHeap<Queued>,
 }
 
-/// The middle of the cubic through two vertices, how far it is off the middle of the edge, and that middle.
-fn cubic_middle(a: &Vertex, b: &Vertex) -> (DVec3, f64, DVec3) {
-    let (p, q) = (a.pos(), b.pos());
-    let along = q - p;
+/// The way from the middle of an edge to that of the cubic through its ends.
+#[inline]
+fn to_cubic_middle(a: &Vertex, b: &Vertex) -> DVec3 {
+    let along = b.pos() - a.pos();
     let (n, m) = (a.normal(), b.normal());
-    let off = (m * along.dot(m) - n * along.dot(n)) * 0.125;
-    let middle = (p + q) * 0.5;
-    (middle + off, off.length(), middle)
+    (m * along.dot(m) - n * along.dot(n)) * 0.125
+}
+
+/// True if a way is longer than this. Most are far from it, and need no root to tell.
+#[inline]
+fn is_longer(way: DVec3, than: f64) -> bool {
+    let (square, limit) = (way.length_squared(), than * than);
+    if square < limit * (1.0 - NEAR) {
+        return false;
+    }
+    square > limit * (1.0 + NEAR) || way.length() > than
+}
+
+/// As [`is_longer`], of ways that are shorter.
+#[inline]
+fn is_shorter(way: DVec3, than: f64) -> bool {
+    let (square, limit) = (way.length_squared(), than * than);
+    if square > limit * (1.0 + NEAR) {
+        return false;
+    }
+    square < limit * (1.0 - NEAR) || way.length() < than
 }
 
 /// The vertex in the middle of two: on the cubic unless that is far off.
 pub(super) fn between(a: &Vertex, b: &Vertex, detail: f64) -> Vertex {
-    let (on_cubic, off, middle) = cubic_middle(a, b);
-    let pos = if off <= detail / 10.0 {
-        on_cubic
+    let off = to_cubic_middle(a, b);
+    let middle = (a.pos() + b.pos()) * 0.5;
+    let pos = if off.length() <= detail / 10.0 {
+        middle + off
     } else {
         middle
     };
@@ -125,6 +146,7 @@ fn must_split(a: &Vertex, b: &Vertex, detail: f64) -> bool {
 }
 
 /// As [`must_split`], of an edge with a length of this square.
+#[inline]
 fn is_split_at(square: f64, a: &Vertex, b: &Vertex, detail: f64) -> bool {
     if square > detail * detail {
         return true;
@@ -132,16 +154,18 @@ fn is_split_at(square: f64, a: &Vertex, b: &Vertex, detail: f64) -> bool {
     if square <= detail * detail / 16.0 {
         return false;
     }
-    a.normal().dot(b.normal()) < SPLIT_COS || cubic_middle(a, b).1 > detail / 20.0
+    a.normal().dot(b.normal()) < SPLIT_COS || is_longer(to_cubic_middle(a, b), detail / 20.0)
 }
 
 /// True if an edge with a length of this square collapses.
+#[inline]
 fn is_collapsed_at(square: f64, a: &Vertex, b: &Vertex, detail: f64) -> bool {
     if square >= detail * detail / 4.0 {
         return false;
     }
     let is_plain = a.normal().dot(b.normal()) > COLLAPSE_COS;
-    square < detail * detail / 256.0 || (is_plain && cubic_middle(a, b).1 < detail / 40.0)
+    square < detail * detail / 256.0
+        || (is_plain && is_shorter(to_cubic_middle(a, b), detail / 40.0))
 }
 
 /// Twice the area of a triangle, along its normal.
@@ -214,7 +238,13 @@ impl Stepping<'_> {
 
     /// Puts an edge into the queue of what it asks for. Only edges that the step moves as a whole collapse.
     fn ask(&self, [a, b]: [u32; 2], asked: &mut Asked) {
-        let (one, two) = (self.after(a), self.after(b));
+        self.ask_from((a, self.after(a)), b, asked);
+    }
+
+    /// As [`Self::ask`], with the first end as it is after the step.
+    #[inline]
+    fn ask_from(&self, (a, one): (u32, &Vertex), b: u32, asked: &mut Asked) {
+        let two = self.after(b);
         let square = one.pos().distance_squared(two.pos());
         let ends = Reverse((a.min(b), a.max(b)));
         if is_split_at(square, one, two, self.detail) {
@@ -231,10 +261,11 @@ impl Stepping<'_> {
     fn asked(&self) -> Asked {
         let mut asked = Asked::default();
         for vertex in self.moving() {
+            let one = self.after(vertex);
             for half in self.mesh.fan(vertex) {
                 let to = self.mesh.to(half);
                 if to < vertex || !self.is_moved(to) {
-                    self.ask([vertex, to], &mut asked);
+                    self.ask_from((vertex, one), to, &mut asked);
                 }
             }
             if self.mesh.is_border(vertex) {
@@ -355,21 +386,41 @@ impl Stepping<'_> {
 
     /// One round of flips where triangles are flat and become less slender.
     fn flip_slender(&mut self) {
-        let mut halves = Vec::new();
+        let mut fan = Vec::new();
         for i in 0..self.moved.len() {
             let vertex = self.moved[i];
             if !self.mesh.is_vertex(vertex) || !self.is_moved(vertex) {
                 continue;
             }
-            halves.clear();
-            halves.extend(self.mesh.fan(vertex));
-            for half in &halves {
-                // An edge may have gone with a flip before.
-                if self.mesh.from(*half) == vertex {
-                    let to = self.mesh.to(*half);
-                    if (to < vertex || !self.is_moved(to)) && self.is_worth_a_flip(*half) {
-                        self.work.flips += usize::from(self.mesh.flip(*half).is_some());
+            let middle = self.after(vertex).pos();
+            fan.clear();
+            fan.extend(self.mesh.fan(vertex).map(|half| {
+                let to = self.mesh.to(half);
+                (half, to, self.after(to).pos())
+            }));
+            // What lies on both sides of an edge is then before and behind it in the fan.
+            let mut is_as_it_was = !self.mesh.is_border(vertex);
+            for at in 0..fan.len() {
+                let (half, mut to, pos) = fan[at];
+                if !is_as_it_was {
+                    // The edge may have gone with a flip before.
+                    if self.mesh.from(half) != vertex {
+                        continue;
                     }
+                    to = self.mesh.to(half);
+                }
+                if to > vertex && self.is_moved(to) {
+                    continue;
+                }
+                if is_as_it_was {
+                    let beside = [at + 1, at + fan.len() - 1].map(|k| fan[k % fan.len()].2);
+                    if !is_wide(middle, pos, beside) {
+                        continue;
+                    }
+                }
+                if self.is_worth_a_flip(half) && self.mesh.flip(half).is_some() {
+                    self.work.flips += 1;
+                    is_as_it_was = false;
                 }
             }
         }
@@ -386,8 +437,7 @@ impl Stepping<'_> {
             self.mesh.across(other),
         ];
         let [a, b, c, d] = corners.map(|v| self.after(v).pos());
-        // Angles across the edge of less than half a turn together: the edge is the better one.
-        if (a - c).dot(b - c) >= 0.0 && (a - d).dot(b - d) >= 0.0 {
+        if !is_wide(a, b, [c, d]) {
             return false;
         }
         let [one, two] = [area_normal([a, b, c]), area_normal([b, a, d])];
@@ -403,6 +453,12 @@ impl Stepping<'_> {
             && is_turned_little(one + two, second)
             && !must_split(self.after(corners[2]), self.after(corners[3]), self.detail)
     }
+}
+
+/// False if the angles across an edge are less than half a turn together: the edge is the better one.
+#[inline]
+fn is_wide(a: DVec3, b: DVec3, [c, d]: [DVec3; 2]) -> bool {
+    (a - c).dot(b - c) < 0.0 || (a - d).dot(b - d) < 0.0
 }
 
 /// True if a triangle has an area still, and its normal is less than 60° from what it was; one that had none may have

@@ -342,9 +342,19 @@ impl Shaping {
             return Vec::new();
         }
         let all = 0..self.mesh.triangle_places();
-        let long: Vec<u32> = all.filter(|t| self.longest(*t).is_some()).collect();
+        let long: Vec<u32> = all.filter(|t| self.is_long(*t)).collect();
         self.is_fine = long.is_empty();
         long
+    }
+
+    /// True if a triangle has an edge longer than the detail.
+    fn is_long(&self, triangle: u32) -> bool {
+        let Some(corners) = self.mesh.triangle(triangle) else {
+            return false;
+        };
+        let [a, b, c] = corners.map(|v| self.mesh.vertices[v as usize].pos());
+        let [one, two, three] = [a - b, b - c, c - a].map(DVec3::length_squared);
+        one.max(two).max(three) > self.detail * self.detail
     }
 
     /// The longest edge of a triangle, if it is longer than the detail: its square and its half-edge.
