@@ -11,8 +11,15 @@ use super::tiles::TILE;
 const REST_SHARE: f64 = 1.7;
 const MOVING_SHARE: f64 = 1.3;
 
-/// The shortest is believed to take no longer, seconds: tiles stay short enough that no device is lost to them.
+/// What moves is not made to wait for a device that takes longer for anything at all, seconds; nor does the first
+/// submission of tiles, about which nothing is known.
 const MOST: f64 = 0.3;
+
+/// Beyond what a submission takes anyway its tiles may take so long, seconds: no device is lost to them.
+const MOST_WORK: f64 = 0.5;
+
+/// The shortest is believed to take no longer, seconds: the first ones wait for programs to be compiled.
+const LONGEST: f64 = 3.0;
 
 /// The shortest may have become longer: it is believed to, so much at each submission of a few tiles. Larger ones tell
 /// nothing about it.
@@ -36,6 +43,7 @@ pub(crate) enum Work {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pace {
     cost: [f64; 4],
+    is_measured: [bool; 4],
     shortest: f64,
 }
 
@@ -44,6 +52,7 @@ impl Pace {
     pub(crate) fn new(cost: [f64; 4]) -> Self {
         Self {
             cost,
+            is_measured: [false; 4],
             shortest: 0.0,
         }
     }
@@ -65,12 +74,16 @@ impl Pace {
 
     /// Pixels or texels that a budget of seconds pays for.
     pub(crate) fn affordable(&self, budget: f64, work: Work) -> f64 {
-        let share = match work {
-            Work::Quick | Work::QuickBaked => MOVING_SHARE,
-            Work::Refine => REST_SHARE,
-            Work::Bake => 1.0,
+        let brief = self.shortest.min(MOST);
+        let takes = match work {
+            Work::Quick | Work::QuickBaked => MOVING_SHARE * brief,
+            Work::Refine if self.is_measured[work as usize] => {
+                self.shortest + ((REST_SHARE - 1.0) * self.shortest).min(MOST_WORK)
+            }
+            Work::Refine => REST_SHARE * brief,
+            Work::Bake => brief,
         };
-        budget.max(share * self.shortest) / self.cost(work)
+        budget.max(takes) / self.cost(work)
     }
 
     /// Learns from a submission that was seen to be done after `elapsed` seconds, at the check of number `checks`, one
@@ -82,9 +95,10 @@ impl Pace {
                 shortest if pixels <= FEW_PIXELS => shortest * GROWS,
                 shortest => shortest,
             };
-            self.shortest = elapsed.min(believed).min(MOST);
+            self.shortest = elapsed.min(believed).min(LONGEST);
         }
         let measured = elapsed / f64::from(pixels.max(1));
+        self.is_measured[work as usize] = true;
         let cost = &mut self.cost[work as usize];
         // Done by the next frame: it may have taken less than could be seen, so more is tried.
         *cost = if checks <= 1 {
@@ -118,6 +132,47 @@ mod tests {
         let work = work_after(12, 2.5e-6, 0.25, 4e-6, 0.13, 0.05);
         assert!(work > 0.08, "many tiles at once: {work}");
         assert!(work < 0.6, "and not too many: {work}");
+    }
+
+    /// A page of full size on SwiftShader: half a second goes by for each frame, two of them for a submission. One tile
+    /// at a time would make the picture three minutes' work.
+    #[test]
+    fn a_page_that_is_slow_by_itself_does_many_tiles_at_once() {
+        const COST: f64 = 5e-6;
+        let mut pace = Pace::new([2.5e-6; 4]);
+        let mut pixels = 4096.0;
+        for _ in 0..16 {
+            // The device tells when it is done, between two frames.
+            pace.learn(1.0 + COST * pixels, pixels as u32, 2, Work::Refine);
+            pixels = pace.affordable(0.05, Work::Refine).max(4096.0);
+        }
+        let work = COST * pixels;
+        assert!(work > 0.3, "{work}");
+        assert!(work < 0.7, "{work}");
+    }
+
+    /// The first submissions wait for programs, which tells nothing about tiles.
+    #[test]
+    fn a_long_start_makes_no_long_submission() {
+        let mut pace = Pace::new([2.5e-6; 4]);
+        pace.learn(12.0, 4096, 30, Work::Quick);
+        let first = 6e-5 * pace.affordable(0.05, Work::Refine);
+        assert!(first < 15.0, "as before: {first}");
+        let mut longest = 0.0_f64;
+        let mut pixels = 8192.0;
+        for _ in 0..20 {
+            let takes = 0.3 + 6e-5 * pixels;
+            longest = longest.max(6e-5 * pixels);
+            pace.learn(
+                takes,
+                pixels as u32,
+                (takes / 0.15).ceil() as u32,
+                Work::Refine,
+            );
+            pixels = pace.affordable(0.05, Work::Refine).max(4096.0);
+        }
+        assert!(longest < 3.5, "{longest}");
+        assert!(6e-5 * pixels < 1.0, "{pixels}");
     }
 
     #[test]
