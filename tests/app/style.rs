@@ -129,3 +129,34 @@ fn a_step_has_a_style() {
     window.undo();
     assert!(window.document().get("/steps/0/set").is_none());
 }
+
+/// The light is put by its ball, by the arrow keys, or by numbers, and taken back to that of a document without one.
+#[test]
+fn the_light_is_turned() {
+    let mut window = open();
+    let light = |window: &Window| window.document().illustration().look.light;
+    assert_eq!(light(&window), None);
+    window.click("Unfold the light");
+    window.type_into("Turned", "90");
+    let from = light(&window).expect("a light").from;
+    assert!(from.x > 0.7 && from.z.abs() < 0.01, "{from}");
+    window.type_into("Raised", "0");
+    let from = light(&window).expect("a light").from;
+    assert!(from.x > 0.999, "{from}");
+    window.type_into("Softness", "20");
+    window.look("light from the right");
+    assert_eq!(light(&window).expect("a light").soft, 0.2);
+    // The middle of the ball is the viewer.
+    window.click("Direction of the light");
+    let from = light(&window).expect("a light").from;
+    assert!(from.z > 0.99, "{from}");
+    window.press(Key::ArrowUp);
+    let raised = light(&window).expect("a light").from;
+    assert!((0.05..0.12).contains(&(raised.y - from.y)), "{raised}");
+    window.undo();
+    assert_eq!(light(&window).expect("a light").from, from);
+    window.click("Light as ever");
+    assert_eq!(light(&window), None);
+    window.undo();
+    assert_eq!(light(&window).expect("a light").soft, 0.2);
+}

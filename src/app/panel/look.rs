@@ -7,6 +7,7 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{Palette, control_height};
 use crate::app::kit::widget::{self, Change, Named as _};
 use crate::app::panel::bodies;
+use crate::app::panel::light;
 use crate::app::panel::presets::{self, Pictures};
 use crate::app::panel::style;
 use crate::app::panel::transfer::Editor;
@@ -59,6 +60,8 @@ pub(crate) fn ui(
     if session.view.is_figure() {
         return;
     }
+    widget::divider(ui);
+    light::ui(ui, look, commands);
     widget::divider(ui);
     style::ui(ui, look, commands);
 }

@@ -13,6 +13,7 @@ pub(crate) mod frames;
 pub(crate) mod kept;
 pub(crate) mod keys;
 pub(crate) mod library;
+pub(crate) mod light;
 pub(crate) mod look;
 pub(crate) mod notice;
 mod objects;

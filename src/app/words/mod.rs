@@ -50,6 +50,7 @@ pub(crate) mod kept;
 pub(crate) mod keys;
 pub(crate) mod kinds;
 pub(crate) mod library;
+pub(crate) mod light;
 pub(crate) mod look;
 pub(crate) mod messages;
 pub(crate) mod names;

@@ -19,6 +19,7 @@ fn lines() -> impl Iterator<Item = &'static Line> {
         keys::LINES,
         captions::LINES,
         library::LINES,
+        light::LINES,
         look::LINES,
         authoring::LINES,
         names::LINES,
