@@ -544,7 +544,7 @@ struct MetLook {
 /// Where the pixel lies on the triangle that is met. On a texture the place at rest says it, for `met.weights` are of a
 /// chord.
 fn footprint_of(ray: Ray, met: Met, jacobian: mat3x3f) -> Footprint {
-    if has_textures == 0u {
+    if has_textures == 0u && has_wires == 0u {
         return place_alone(met.weights);
     }
     let a = corner_of(met.triangle, 0u);
@@ -590,7 +590,11 @@ fn look_of(ray: Ray, met: Met) -> MetLook {
     if shows_filling {
         look_here.albedo = filling_color(met.segment, met.at.pos, nearest.w);
     } else {
-        look_here.albedo = surface_color(met.triangle, footprint_of(ray, met, map.jacobian), met.is_front);
+        let at = footprint_of(ray, met, map.jacobian);
+        look_here.albedo = surface_color(met.triangle, at, met.is_front);
+        if has_wires != 0u {
+            look_here.albedo = wired(look_here.albedo, at);
+        }
         look_here.opacity = opacity_of_triangle(met.triangle);
     }
     let opacity = mesh_look.segments[segment].opacity;

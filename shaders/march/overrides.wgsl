@@ -9,6 +9,8 @@ override has_grid: u32 = 1u;
 override has_edges: u32 = 0u;
 /// 1 if tissue is drawn as a ghost.
 override has_ghost: u32 = 0u;
+/// 1 if the edges of a mesh's triangles are drawn.
+override has_wires: u32 = 0u;
 /// 1 if the key light is a lamp of some width.
 override has_lamp: u32 = 0u;
 /// 1 if segments are drawn as bodies of their own.

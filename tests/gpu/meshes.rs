@@ -201,6 +201,49 @@ fn slices_show_what_is_filled() {
     assert!((150..1500).contains(&lines), "{lines} pixels of lines");
 }
 
+/// Wires lie on the edges of triangles and are about as wide as a pixel, whatever the size of the picture and wherever
+/// templates move the triangles: across the front of a box the diagonal alone, between its two sides.
+#[test]
+fn wires_are_the_edges_of_triangles() {
+    let surface = brick();
+    let studio = Studio::new(gpu(), &Arc::clone(&surface).into(), false).expect("it fits");
+    let twist = r#"{"kind":"twist","size":[1.2,1.2,1.2],"params":{"angle":0.5}}"#;
+    for (templates, side) in [("", 160), ("", 320), (twist, 320)] {
+        let document = document(templates, [0.0, 0.0, 0.0, 1.0]);
+        let plain = document.illustration();
+        let mut wired = plain.clone();
+        wired.look.has_wires = true;
+        let [plain, wired] = [plain, &wired].map(|shown| {
+            let drawing = studio.render_image(shown, [side, side], 1);
+            pollster::block_on(drawing).expect("drawn").rgba
+        });
+        let is_wire = |x: u32, y: u32| {
+            let at = 4 * (y * side + x) as usize;
+            let [was, is] = [&plain, &wired].map(|rgba| i32::from(rgba[at + 1]));
+            assert!(is <= was, "a wire is darker");
+            was - is > 25
+        };
+        let all = (0..side).flat_map(|y| (0..side).map(move |x| (x, y)));
+        let share = all.filter(|(x, y)| is_wire(*x, *y)).count() as f32 / (side * side) as f32;
+        assert!((0.2..6.0).contains(&(share * side as f32)), "{share}");
+        // A row above the middle.
+        let row: Vec<bool> = (0..side).map(|x| is_wire(x, side * 9 / 20)).collect();
+        let runs: Vec<usize> = row
+            .chunk_by(|a, b| a == b)
+            .filter(|run| run[0])
+            .map(<[bool]>::len)
+            .collect();
+        assert!(
+            (1..=3).contains(&runs.len()),
+            "{templates} {side}: {runs:?}"
+        );
+        assert!(
+            runs.iter().all(|run| *run <= 4),
+            "{templates} {side}: {runs:?}"
+        );
+    }
+}
+
 #[test]
 fn rays_meet_a_box_where_a_search_finds_it() {
     check(&brick(), "box", false, 0);

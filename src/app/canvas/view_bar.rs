@@ -129,6 +129,15 @@ pub(crate) fn corner_ui(
     if button_ui(ui, spot(2.0), Icon::Ghost, text, is_on).clicked() {
         commands.push(Command::See(See::ToggleGhost));
     }
+    if seen.is_mesh() {
+        let (text, is_on) = match seen.has_wires {
+            true => (w.wires_hide, true),
+            false => (w.wires_show, false),
+        };
+        if button_ui(ui, spot(4.0), Icon::Wires, text, is_on).clicked() {
+            commands.push(Command::See(See::ToggleWires));
+        }
+    }
     let views = button_ui(ui, spot(3.0), Icon::Cube, w.views, false);
     egui::Popup::menu(&views).show(|ui| {
         ui.set_min_width(220.0);

@@ -125,6 +125,7 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         entry(NONE, Key::P, Command::TogglePanels, w.picture_alone),
         entry(NONE, Key::V, Command::See(See::ToggleSlices), s.key_slices),
         entry(NONE, Key::B, Command::See(See::ToggleGhost), s.key_ghost),
+        entry(NONE, Key::Z, Command::See(See::ToggleWires), s.key_wires),
         entry(
             NONE,
             Key::R,

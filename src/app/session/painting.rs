@@ -46,8 +46,19 @@ impl Session {
         strokes.unwrap_or_default()
     }
 
-    /// What is seen in place of what the document shows: one tissue alone, or the one that is painted in its colour.
+    /// What is seen in place of what the document shows: one tissue alone, the one that is painted in its colour, or a
+    /// mesh with its wires.
     pub fn seen(&self) -> Option<Illustration> {
+        let seen = self.seen_bare();
+        if !(self.view.has_wires && self.view.is_mesh()) {
+            return seen;
+        }
+        let mut seen = seen.unwrap_or_else(|| self.shown().clone());
+        seen.look.has_wires = true;
+        Some(seen)
+    }
+
+    fn seen_bare(&self) -> Option<Illustration> {
         if self.tool() == Tool::Clay && !self.shown().templates.is_empty() {
             return Some(Illustration {
                 templates: Vec::new(),

@@ -185,6 +185,7 @@ impl Session {
             Command::UseMesh(answer) => self.use_mesh(answer),
             Command::Raw(command) => self.run_raw(command),
             Command::See(See::ToggleSlices | See::ToggleGhost) if self.view.is_figure() => {}
+            Command::See(See::ToggleWires) if !self.view.is_mesh() => {}
             Command::See(see) => self.run_see(see),
             Command::Tissue(command) => self.run_tissue(command),
             Command::Clay(command) => self.run_clay(command),
@@ -315,6 +316,7 @@ impl Session {
             See::Cross(pos) => view.set_cross(pos),
             See::ReadCross(read) => view.cross_read = read,
             See::ToggleGhost => view.has_ghost = !view.has_ghost,
+            See::ToggleWires => view.has_wires = !view.has_wires,
             See::ToggleMeasure => {
                 let is_on = self.tool.is_measuring();
                 self.take_tool(if is_on {

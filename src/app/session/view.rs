@@ -42,6 +42,8 @@ pub enum See {
     Cross(Vec3),
     /// The untouched object faintly over the deformed one.
     ToggleGhost,
+    /// The edges of a mesh's triangles over its surface.
+    ToggleWires,
     /// Clicks measure distances, or not.
     ToggleMeasure,
     /// Drags over slices change the window of values, or not.
@@ -173,6 +175,8 @@ pub struct ViewState {
     pub cross_read: Option<(Vec3, f32)>,
     /// The untouched object is seen over the deformed one.
     pub has_ghost: bool,
+    /// The edges of a mesh's triangles are drawn.
+    pub has_wires: bool,
     /// Distances in the picture.
     pub measures: Measures,
     /// Rises with every subject.
@@ -246,6 +250,12 @@ impl ViewState {
     /// True if a figure is shown: panels leave out what is about subjects in space.
     pub fn is_figure(&self) -> bool {
         (self.subject.as_ref()).is_some_and(|subject| subject.is_figure)
+    }
+
+    /// True if the subject is a mesh, or a clay, and nothing else.
+    pub fn is_mesh(&self) -> bool {
+        let subject = self.subject.as_ref();
+        subject.is_some_and(|subject| subject.scan.is_none() && !subject.is_figure)
     }
 
     /// False if a subject is shown that has no values: panels leave out what is about values.

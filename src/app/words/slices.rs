@@ -21,6 +21,8 @@ words! {
         move_template: "Move {0} in the slice", "{0} im Schnitt verschieben", "Mover {0} en el corte", "在切片中移动{0}";
         ghost_show: "Compare with the original", "Mit dem Original vergleichen", "Comparar con el original", "与原始状态对比";
         ghost_hide: "End the comparison", "Vergleich beenden", "Terminar la comparación", "结束对比";
+        wires_show: "Edges of the triangles", "Kanten der Dreiecke", "Aristas de los triángulos", "显示三角形的边";
+        wires_hide: "Hide the edges of the triangles", "Kanten der Dreiecke ausblenden", "Ocultar las aristas de los triángulos", "隐藏三角形的边";
         measure: "Measure distances", "Abstände messen", "Medir distancias", "测量距离";
         measure_end: "End measuring", "Messen beenden", "Terminar de medir", "结束测量";
         measure_hint: "Choose two points", "Zwei Punkte wählen", "Elija dos puntos", "选择两点";
@@ -32,6 +34,7 @@ words! {
         amount_hint: "From closed to what is set below", "Von geschlossen bis zu dem, was unten eingestellt ist", "De cerrado a lo que se indica abajo", "从闭合到下方设置的程度";
         key_slices: "Slices", "Schnitte", "Cortes", "切片";
         key_ghost: "Compare with the original", "Mit dem Original vergleichen", "Comparar con el original", "与原始状态对比";
+        key_wires: "Edges of a mesh's triangles", "Kanten der Dreiecke eines Netzes", "Aristas de los triángulos de una malla", "网格三角形的边";
         key_level: "Window and level: drag over a slice", "Fenster und Lage: über einen Schnitt ziehen", "Ventana y nivel: arrastrar sobre un corte", "窗宽窗位：在切片上拖动";
         level_drag: "Right drag over a slice, two fingers", "Rechts über einen Schnitt ziehen, zwei Finger", "Arrastrar con el derecho sobre un corte, dos dedos", "在切片上右键拖动、双指";
         level_does: "Window (right, left) and level (up, down)", "Fenster (rechts, links) und Lage (auf, ab)", "Ventana (derecha, izquierda) y nivel (arriba, abajo)", "窗宽（左右）与窗位（上下）";

@@ -94,6 +94,7 @@ impl Illustration {
                 scale_bar: false,
                 sides: false,
                 strokes: None,
+                has_wires: false,
             },
             camera: Camera::DOCUMENT_DEFAULT,
             captions: Vec::new(),

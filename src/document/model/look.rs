@@ -37,6 +37,8 @@ pub struct Look {
     pub sides: bool,
     /// The strokes of a clay that are shown, from the first on; `None`: all.
     pub strokes: Option<u32>,
+    /// The edges of a mesh's triangles are drawn. A view sets this; no document has it.
+    pub has_wires: bool,
 }
 
 /// How one segment is drawn: as a body of its own, whatever its values are.

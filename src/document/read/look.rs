@@ -55,6 +55,7 @@ impl Reader {
                 true => Some(self.count(object, "strokes")?),
                 false => None,
             },
+            has_wires: false,
         })
     }
 

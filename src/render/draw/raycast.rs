@@ -51,6 +51,7 @@ impl RaycastPasses {
             ("has_grid", number(key.has_grid)),
             ("has_edges", number(key.has_edges)),
             ("has_ghost", number(key.has_ghost)),
+            ("has_wires", number(key.has_wires)),
             ("has_lamp", number(key.has_lamp)),
             ("has_bodies", number(key.has_bodies)),
             key.textures_constant(false),

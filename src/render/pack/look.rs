@@ -28,6 +28,8 @@ pub struct TransferTable {
     pub ghost: f32,
     /// Where the light comes from and how it falls; `None`: as where a document says nothing of it.
     pub light: Option<Light>,
+    /// The edges of a mesh's triangles are drawn.
+    pub has_wires: bool,
 }
 
 /// Linear RGB from sRGB bytes.
@@ -92,6 +94,7 @@ impl TransferTable {
             gradient: look.gradient,
             ghost: ghost_keeps(look.style.ghost),
             light: look.light,
+            has_wires: look.has_wires,
             ..table
         }
     }
@@ -122,6 +125,7 @@ impl TransferTable {
             gradient: 0.0,
             ghost: 1.0,
             light: None,
+            has_wires: false,
         }
     }
 

@@ -25,6 +25,8 @@ pub(crate) struct RaycastKey {
     pub has_edges: bool,
     /// Tissue is drawn as a ghost.
     pub has_ghost: bool,
+    /// The edges of a mesh's triangles are drawn.
+    pub has_wires: bool,
     /// The key light is a lamp of some width.
     pub has_lamp: bool,
     /// Segments are drawn as bodies of their own.

@@ -4,6 +4,10 @@ use crate::data::{Histogram, Volume};
 
 /// Voxels looked at for the histogram at most.
 const HISTOGRAM_SAMPLES: usize = 1 << 20;
+/// Below this (Hounsfield units) there is air: half of it lies between air and soft tissue.
+const AIR_BELOW: f32 = -500.0;
+/// Where values have no unit: part of the window, from its low end, up to which there is nothing.
+const DARK_PART: f32 = 0.12;
 
 /// What a volume looks like by default, and what its values span.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +51,15 @@ impl SubjectInfo {
 }
 
 impl SubjectInfo {
+    /// The value at the object's outer surface: up to it there is nothing.
+    pub fn outer_value(&self) -> f32 {
+        if self.is_ct || self.value_range[0] <= -500.0 {
+            return AIR_BELOW + self.hounsfield_offset;
+        }
+        let [low, high] = self.window_auto;
+        low + DARK_PART * (high - low)
+    }
+
     /// Of a subject without values. `has_segments` is true if it has segments with colours.
     pub(crate) fn of_no_values(has_segments: bool) -> Self {
         Self {

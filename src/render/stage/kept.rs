@@ -36,12 +36,6 @@ const SWEEP_ROUNDS: usize = 6;
 /// Channel of the distance to the outside.
 const CHANNEL_OUTSIDE: u32 = 4;
 
-/// Below this (Hounsfield units) there is air: half of it lies between air and soft tissue.
-const AIR_BELOW: f32 = -500.0;
-
-/// Where values have no unit: part of the window, from its low end, up to which there is nothing.
-const DARK_PART: f32 = 0.12;
-
 /// The compute programs that make distances; compiled when the first document keeps something.
 #[derive(Debug, Default)]
 pub(crate) struct DistancePrograms {
@@ -392,14 +386,7 @@ impl MeasuredFrame {
 
 /// Normalised value up to which there is nothing.
 fn threshold(subject: &SubjectTextures) -> f32 {
-    let info = &subject.info;
-    let value = if info.is_ct || info.value_range[0] <= -500.0 {
-        AIR_BELOW + info.hounsfield_offset
-    } else {
-        let [low, high] = info.window_auto;
-        low + DARK_PART * (high - low)
-    };
-    (value - subject.uniform.value_low) / subject.uniform.value_range
+    (subject.info.outer_value() - subject.uniform.value_low) / subject.uniform.value_range
 }
 
 fn texture_of(gpu: &Gpu, dims: UVec3) -> wgpu::Texture {
