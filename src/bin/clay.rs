@@ -3,6 +3,8 @@
 #[cfg(target_arch = "wasm32")]
 use fabrica::shell::worker::clay;
 #[cfg(target_arch = "wasm32")]
+use js_sys::Function;
+#[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::*;
 
 fn main() {
@@ -13,6 +15,6 @@ fn main() {
 /// See [`clay::run`].
 #[cfg(target_arch = "wasm32")]
 #[wasm_bindgen]
-pub async fn run(message: JsValue) -> Result<(), JsValue> {
-    clay::run(message).await
+pub async fn run(message: JsValue, load: Function) -> Result<(), JsValue> {
+    clay::run(message, load).await
 }

@@ -16,3 +16,10 @@ fn main() {
 pub async fn run(message: JsValue) -> Result<Option<String>, JsValue> {
     scans::run(message).await
 }
+
+/// See [`scans::voxels`].
+#[cfg(target_arch = "wasm32")]
+#[wasm_bindgen]
+pub async fn voxels(message: JsValue) -> Result<JsValue, JsValue> {
+    scans::voxels(message).await
+}

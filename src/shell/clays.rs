@@ -2,20 +2,19 @@
 
 use std::sync::Arc;
 
+#[cfg(not(target_arch = "wasm32"))]
+use super::loading::slabs_in_threads as slabs;
 #[cfg(target_arch = "wasm32")]
 use super::loading::slabs_in_turn as slabs;
 use super::loading::{Post, PostingSink, hash_of};
-#[cfg(not(target_arch = "wasm32"))]
-use super::loading::{is_mesh_file, read_scan, slabs_in_threads as slabs};
+use super::loading::{is_mesh_file, read_scan};
 use crate::assets::{LoadEvent, Want};
 use crate::clay::{ClayError, MAX_FILE_TRIANGLES, Shaping};
 use crate::data::{
     DistanceGrid, Mesh, MeshGrids, SubjectPart, SubjectSink, Surface, SurfaceError, Volume,
     VolumeBuilder,
 };
-#[cfg(not(target_arch = "wasm32"))]
-use crate::document::Reading;
-use crate::document::{Clay, ClayStart, SubjectRef, VoxelSource};
+use crate::document::{Clay, ClayStart, Reading, SubjectRef, VoxelSource};
 use crate::load::{
     Aside, FileSet, LoadError, LoadReport, MeshOptions, MeshReport, Warning, read_mesh,
 };
@@ -25,7 +24,7 @@ use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError};
 /// Part of the work that is done when all strokes are.
 const STROKES: f32 = 0.8;
 /// Part of beginning with a file or a volume that is done when that is read or made.
-const READING: f32 = 0.5;
+pub const READING: f32 = 0.5;
 /// Part of the work on a clay that is done when the volume that it begins with is.
 const BEGINNING: f32 = 0.5;
 
@@ -120,44 +119,84 @@ impl ClayDesk {
         report: &mut LoadReport,
         go_on: &mut dyn FnMut(f32) -> bool,
     ) -> Result<(), LoadError> {
-        if let Some(here) = self.start_of(clay).and_then(|start| start.sha256) {
-            let given = clay.file().and_then(|file| file.sha256);
-            let wanted = given.map(str::to_owned);
-            let wanted = wanted.or_else(|| hash_of(files, name));
-            if wanted.is_some_and(|wanted| wanted.eq_ignore_ascii_case(&hex(&here))) {
-                report.sha256 = Some(here);
-                return Ok(());
-            }
+        if let Some(here) = self.begun(clay, || hash_of(files, name)) {
+            report.sha256 = Some(here);
+            return Ok(());
         }
-        // Strokes on another start are no strokes on this one, though its address may be the same.
+        self.forget();
+        let mesh = match clay.volume() {
+            #[cfg(not(target_arch = "wasm32"))]
+            Some(meant) => {
+                let mut builder = VolumeBuilder::with_progress(|part| go_on(READING * part));
+                let reading = match &meant.of {
+                    VoxelSource::Builtin(_) => &Reading::default(),
+                    VoxelSource::File { reading, .. } => reading,
+                };
+                read_voxels((files, name), reading, &mut builder, report)?;
+                let volume = whole(builder, name)?;
+                return self.begin_with_volume(clay, (&volume, name), report.sha256, go_on);
+            }
+            _ => read_surface((files, name), clay, report, &mut |part| {
+                go_on(READING * part)
+            })?,
+        };
+        let shaping = Shaping::of_mesh(clay, &mesh, &mut |part| go_on(behind_reading(part)));
+        self.begin_anew(clay, shaping, report.sha256, name)
+    }
+
+    /// Begins with a scan that was read; `name` and hash are its file's.
+    ///
+    /// # Errors
+    /// [`LoadError`] if no clay can be made of it; also where `go_on` stops it.
+    pub fn begin_with_volume(
+        &mut self,
+        clay: &Clay,
+        (volume, name): (&Volume, &str),
+        sha256: Option<[u8; 32]>,
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Result<(), LoadError> {
+        self.forget();
+        let made = match clay.volume() {
+            Some(meant) => {
+                Shaping::of_volume(clay, meant, volume, &mut |part| go_on(behind_reading(part)))
+            }
+            None => Err(ClayError::NoFile),
+        };
+        self.begin_anew(clay, made, sha256, name)
+    }
+
+    /// Strokes on another start are no strokes on this one, though its address may be the same.
+    fn forget(&mut self) {
         *self = Self {
             meshes: std::mem::take(&mut self.meshes),
             ..Self::default()
         };
-        let shaping = match clay.volume() {
-            Some(meant) => {
-                let volume = read_voxels((files, name), &meant.of, report, &mut |part| {
-                    go_on(READING * part)
-                })?;
-                Shaping::of_volume(clay, meant, &volume, &mut |part| {
-                    go_on(behind_reading(part))
-                })
-            }
-            None => {
-                let mesh = read_surface((files, name), clay, report, &mut |part| {
-                    go_on(READING * part)
-                })?;
-                Shaping::of_mesh(clay, &mesh, &mut |part| go_on(behind_reading(part)))
-            }
-        };
-        let shaping = shaping.map_err(|error| match error {
+    }
+
+    fn begin_anew(
+        &mut self,
+        clay: &Clay,
+        made: Result<Shaping, ClayError>,
+        sha256: Option<[u8; 32]>,
+        name: &str,
+    ) -> Result<(), LoadError> {
+        let shaping = made.map_err(|error| match error {
             ClayError::Stopped => LoadError::Cancelled,
             other => LoadError::Mesh {
                 message: format!("{other} ({name})"),
             },
         })?;
-        self.start = Some(MadeStart::new(clay, report.sha256, shaping));
+        self.start = Some(MadeStart::new(clay, sha256, shaping));
         Ok(())
+    }
+
+    /// The hash of the file that a clay begins with, if that has been read. The document tells which file is wanted; if
+    /// it does not, `hash` is that of the file at hand.
+    pub fn begun(&self, clay: &Clay, hash: impl FnOnce() -> Option<String>) -> Option<[u8; 32]> {
+        let here = self.start_of(clay)?.sha256?;
+        let given = clay.file().and_then(|file| file.sha256);
+        let wanted = given.map(str::to_owned).or_else(hash)?;
+        wanted.eq_ignore_ascii_case(&hex(&here)).then_some(here)
     }
 
     /// The start that is here, if a clay begins with it.
@@ -266,48 +305,38 @@ fn read_surface(
     Ok(mesh)
 }
 
-/// Reads the scan that a clay begins with, whole.
-#[cfg(not(target_arch = "wasm32"))]
-fn read_voxels(
+/// Reads the scan that a clay begins with, whole, whatever a device could hold.
+///
+/// # Errors
+/// [`LoadError`] if it is no scan, or `sink` takes no more.
+pub fn read_voxels(
     (files, name): (&mut dyn FileSet, &str),
-    of: &VoxelSource,
+    reading: &Reading,
+    sink: &mut dyn SubjectSink,
     report: &mut LoadReport,
-    go_on: &mut dyn FnMut(f32) -> bool,
-) -> Result<Volume, LoadError> {
-    let reading = match of {
-        VoxelSource::Builtin(_) => Reading::default(),
-        VoxelSource::File { reading, .. } => reading.clone(),
-    };
-    let cannot = |what: String| LoadError::Unsupported {
-        name: name.to_owned(),
-        what,
-    };
-    if is_mesh_file(files, name, &reading)? {
-        return Err(cannot(
-            "a mesh, and this clay begins with a part of a scan: name a mesh by `from` itself"
-                .to_owned(),
-        ));
+) -> Result<(), LoadError> {
+    if is_mesh_file(files, name, reading)? {
+        return Err(LoadError::Unsupported {
+            name: name.to_owned(),
+            what:
+                "a mesh, and this clay begins with a part of a scan: name a mesh by `from` itself"
+                    .to_owned(),
+        });
     }
-    let mut builder = VolumeBuilder::with_progress(go_on);
-    read_scan(files, name, &reading, &mut builder, report)?;
-    builder.finish().map_err(|error| cannot(error.to_string()))
+    read_scan(files, name, reading, sink, report)
 }
 
-/// What the page says of a clay of a scan: its readers of scans are a program of their own, and the shaper of clays
-/// goes without them.
-#[cfg(target_arch = "wasm32")]
-pub const NO_SCANS: &str = "a clay of a scan is not drawn in the page yet: write it with `fabrica clay`, and begin with that mesh";
-
-#[cfg(target_arch = "wasm32")]
-fn read_voxels(
-    (_, name): (&mut dyn FileSet, &str),
-    _: &VoxelSource,
-    _: &mut LoadReport,
-    _: &mut dyn FnMut(f32) -> bool,
+/// The scan of a file that was read.
+///
+/// # Errors
+/// [`LoadError::Unsupported`] if pieces are missing, or do not go together.
+pub fn whole<P: FnMut(f32) -> bool>(
+    builder: VolumeBuilder<P>,
+    name: &str,
 ) -> Result<Volume, LoadError> {
-    Err(LoadError::Unsupported {
+    builder.finish().map_err(|error| LoadError::Unsupported {
         name: name.to_owned(),
-        what: NO_SCANS.to_owned(),
+        what: error.to_string(),
     })
 }
 
@@ -391,17 +420,42 @@ pub fn make_clay_of_file(
     let mut sink = PostingSink::new(post);
     let mut report = LoadReport::default();
     let begun = desk.begin(clay, file, &mut report, &mut |part| sink.progress(part));
-    let want = Want::subject(&SubjectRef::Clay(Arc::clone(clay)));
-    let is_it = report
-        .sha256_hex()
-        .is_none_or(|hash| want.check(&hash).is_ok());
-    if begun.is_err() || !is_it {
+    if begun.is_err() || !is_wanted(clay, report.sha256) {
         return sink.end(begun, &report, None);
     }
     for warning in &report.warnings {
         post.post(LoadEvent::Notice(warning.to_string()));
     }
     make_clay(desk, clay, post);
+}
+
+/// As [`make_clay_of_file`], of a clay that begins with a scan that was read elsewhere; `name` and hash are its file's.
+pub fn make_clay_of_volume(
+    desk: &mut ClayDesk,
+    clay: &Arc<Clay>,
+    volume: (&Volume, &str),
+    sha256: Option<[u8; 32]>,
+    post: &mut dyn Post,
+) {
+    let mut sink = PostingSink::new(post);
+    let report = LoadReport {
+        sha256,
+        ..LoadReport::default()
+    };
+    let begun = match is_wanted(clay, sha256) {
+        true => desk.begin_with_volume(clay, volume, sha256, &mut |part| sink.progress(part)),
+        false => return sink.end(Ok(()), &report, None),
+    };
+    match begun {
+        Ok(()) => make_clay(desk, clay, post),
+        Err(_) => sink.end(begun, &report, None),
+    }
+}
+
+/// False for a file of another hash than the document gives.
+fn is_wanted(clay: &Arc<Clay>, sha256: Option<[u8; 32]>) -> bool {
+    let want = Want::subject(&SubjectRef::Clay(Arc::clone(clay)));
+    sha256.is_none_or(|hash| want.check(&hex(&hash)).is_ok())
 }
 
 /// Shapes a clay and posts it, what there is to say, and how it ended.

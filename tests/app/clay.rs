@@ -221,6 +221,44 @@ fn a_clay_is_begun_from_the_list_of_subjects() {
     assert!(window.document().to_json().contains("cube"));
 }
 
+#[test]
+fn a_clay_is_begun_with_what_is_shown() {
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "piggybank" } }"#,
+    );
+    window.settle();
+    for (item, part) in [("Outer surface", "\"iso\""), ("Coins", "\"segment\"")] {
+        window.click("Panel: Tissues");
+        window.click("Shape it as clay");
+        window.steps(2);
+        let items = window
+            .harness
+            .query_all_by_role_and_label(Role::Button, item);
+        let item = items.last().expect("an item of the menu");
+        item.click();
+        window.steps(3);
+        window.settle();
+        let json = window.document().to_json();
+        assert!(json.contains(part) && json.contains("piggybank"), "{json}");
+        assert_eq!(window.strokes_asked().last(), Some(&0));
+        window.look(&format!("clay of {part}"));
+        assert!(window.harness.query_by_label("Put the tool away").is_some());
+        window.press(Key::Escape);
+        window.press(Key::Z);
+        let is_named = window
+            .harness
+            .query_by_label("Hide the edges of the triangles");
+        assert!(is_named.is_some(), "the edges are shown");
+        window.settle();
+        window.look(&format!("wires of {part}"));
+        window.press(Key::Z);
+        window.undo();
+        assert!(!window.document().to_json().contains("clay"));
+        window.settle();
+    }
+}
+
 /// A corner of 80 mm as a file, and a clay of it whose tip is pulled up; only its hash is known.
 const CORNER: &str = "v 0 0 0\nv 80 0 0\nv 0 80 0\nv 0 0 80\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 const OF_FILE: &str = r#"{ "fabrica": 1, "subject": { "clay": { "from": { "sha256": "HASH", "name": "Corner", "axes": "ras" },

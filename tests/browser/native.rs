@@ -463,12 +463,11 @@ async fn compare_field(session: &Session, native: &mut Native, findings: &mut Fi
     findings.compare("field", &page, &image, &[("/templates/0", plain)]);
 }
 
-/// Of the parts that run in workers only the one that shapes clays was fetched.
-fn assert_only_clay_is_fetched(server: &Server) {
-    assert_eq!(parts::count(server, "fabrica_clay_bg.wasm"), 1);
-    for part in ["subjects", "scans", "meshes", "pictures", "figures"] {
-        let name = format!("fabrica_{part}");
-        assert_eq!(parts::count(server, &name), 0, "no {part} for a clay");
+/// Of the parts that run in workers only these were fetched, once each.
+fn assert_only_are_fetched(server: &Server, wanted: &[&str]) {
+    for part in ["clay", "subjects", "scans", "meshes", "pictures", "figures"] {
+        let count = parts::count(server, &format!("fabrica_{part}_bg.wasm"));
+        assert_eq!(count, usize::from(wanted.contains(&part)), "{part}");
     }
 }
 
@@ -484,8 +483,7 @@ fn a_clay_is_drawn_as_the_native_program_draws_it() {
         let link = payload(json);
         let tab = session.half_viewer(&format!("#{link}"), (300, 420)).await;
         tab.settled().await;
-        let server = &session.server;
-        assert_only_clay_is_fetched(server);
+        assert_only_are_fetched(&session.server, &["clay"]);
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
         let size = page.dimensions().into();
         let native = Native::open().await;
@@ -513,37 +511,64 @@ fn a_clay_is_drawn_as_the_native_program_draws_it() {
     });
 }
 
-/// A clay begins with a file beside the page, or with one that the reader drops: the part that shapes it reads that.
+/// A clay begins with a mesh beside the page, or with one that the reader drops: the part that shapes it reads that.
 #[test]
 fn a_clay_of_a_file_is_drawn_as_the_native_program_draws_it() {
-    with_browser(BrowserGpu::Software, |session| async move {
-        let obj = bumpy_ball().into_bytes();
+    compare_clay_of(
+        "ball.obj",
+        bumpy_ball().into_bytes(),
+        |file| file.to_owned(),
+        &["clay"],
+    );
+}
+
+/// A clay begins with a scan: the part that reads scans hands it to the part that shapes clays.
+#[test]
+fn a_clay_of_a_scan_is_drawn_as_the_native_program_draws_it() {
+    compare_clay_of(
+        "ball.nrrd",
+        parts::small_scan(),
+        |file| format!(r#""of":{{{file}}},"iso":100"#),
+        &["clay", "scans"],
+    );
+}
+
+/// Compares a clay that begins with a file, which lies beside the page and then is dropped, page and native program.
+/// `from` completes what names the file.
+fn compare_clay_of(
+    name: &'static str,
+    bytes: Vec<u8>,
+    from: impl Fn(&str) -> String + Clone + 'static,
+    parts: &'static [&'static str],
+) {
+    with_browser(BrowserGpu::Software, move |session| async move {
         let server = &session.server;
-        server.add("ball.obj", obj.clone());
-        let json = |from: String, pulled: u32| {
+        server.add(name, bytes.clone());
+        let json = |file: &str, pulled: u32| {
+            let from = from(file);
             format!(
                 r#"{{"fabrica":1,"subject":{{"clay":{{"from":{{{from}}},"detail":0.04,"tools":[{{"radius":0.15}}],
                 "strokes":[{{"path":[0,0,400,0,0,{pulled}]}}]}}}},"camera":{{"rotate":[0.3,0.2,0.1,0.92]}}}}"#
             )
         };
-        let at_src = || r#""src":"ball.obj""#.to_owned();
-        let link = payload(&json(at_src(), 200));
+        let at_src = format!(r#""src":"{name}""#);
+        let link = payload(&json(&at_src, 200));
         let tab = session.half_viewer(&format!("#{link}"), (300, 420)).await;
         tab.settled().await;
-        assert_only_clay_is_fetched(server);
+        assert_only_are_fetched(server, parts);
         let page = promised(&tab, "window.fabrica.viewer.picture()").await;
         let size = page.dimensions().into();
         let native = Native::open().await;
         let draw = async |pulled| {
-            let document = Document::from_json(&json(at_src(), pulled)).expect("a good document");
+            let document = Document::from_json(&json(&at_src, pulled)).expect("a good document");
             let SubjectRef::Clay(clay) = &document.illustration().subject else {
                 panic!("a clay")
             };
             let (mut desk, mut report) = (ClayDesk::default(), LoadReport::default());
-            let mut files = MemoryFiles::new([("ball.obj", obj.clone())]);
-            let file: (&mut dyn FileSet, &str) = (&mut files, "ball.obj");
+            let mut files = MemoryFiles::new([(name, bytes.clone())]);
+            let file: (&mut dyn FileSet, &str) = (&mut files, name);
             let begun = desk.begin(clay, file, &mut report, &mut |_| true);
-            begun.expect("a mesh");
+            begun.expect("it can be read");
             let made = surface_of_clay(&mut desk, clay, &mut |_| true);
             let subject = Subject::from(made.expect("it can be made").0);
             let studio = Studio::new(&native.gpu, &subject, true).expect("it fits");
@@ -552,19 +577,15 @@ fn a_clay_of_a_file_is_drawn_as_the_native_program_draws_it() {
         let image = draw(200).await;
         let plain = draw(100).await;
         let mut findings = Findings::default();
-        findings.compare(
-            "clay of a file",
-            &page,
-            &image,
-            &[("/subject/clay/strokes/0", plain)],
-        );
+        let what = format!("clay of {name}");
+        findings.compare(&what, &page, &image, &[("/subject/clay/strokes/0", plain)]);
         findings.tell();
         // The same by its hash, once the reader has dropped the file.
-        let hash = fabrica::math::hex(&Sha256::digest(&obj));
-        let link = payload(&json(format!(r#""sha256":"{hash}""#), 200));
+        let hash = fabrica::math::hex(&Sha256::digest(&bytes));
+        let link = payload(&json(&format!(r#""sha256":"{hash}""#), 200));
         let tab = session.half_viewer(&format!("#{link}"), (300, 420)).await;
         tab.settled().await;
-        drop_files(&tab, &["ball.obj"]).await;
+        drop_files(&tab, &[name]).await;
         tab.settled().await;
         let dropped = promised(&tab, "window.fabrica.viewer.picture()").await;
         let same = difference(&page, &dropped, WHITE);

@@ -7,9 +7,9 @@ use crate::app::kit::entry;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget::{self, Named as _, NumberRow};
-use crate::app::session::{Command, Session};
+use crate::app::session::{ClayCommand, Command, Session};
 use crate::app::words::bodies::w;
-use crate::app::words::fill;
+use crate::app::words::{clay, fill};
 use crate::document::{BodyKind, Edit, Layer, MAX_LAYERS, SurfaceLook, color_text};
 
 /// Shown where the inside or a layer has no colour of its own: the colour of a mesh whose file gives none, darker.
@@ -65,6 +65,14 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     }
     widget::divider(ui);
     layers_ui(ui, session, &surface.layers, commands);
+    if let Some(start) = session.clay_start(None, 0.0) {
+        widget::divider(ui);
+        let words = clay::w();
+        let begin = widget::labelled_button(ui, Icon::Brush, words.begin, false, true);
+        if begin.on_hover_text(words.begin_mesh_hint).clicked() {
+            commands.push(Command::Clay(ClayCommand::Begin(start)));
+        }
+    }
 }
 
 /// Sets a key of the look.

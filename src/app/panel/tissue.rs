@@ -9,14 +9,16 @@ use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{Palette, control_height};
 use crate::app::kit::widget::{self, NumberRow};
 use crate::app::session::tissues::set_look;
-use crate::app::session::{Command, Focus, LoadOf, Session, Sought, TissueCommand};
+use crate::app::session::{ClayCommand, Command, Focus, LoadOf, Session, Sought, TissueCommand};
 use crate::app::words::kept::segment;
 use crate::app::words::tissue::w;
-use crate::app::words::{fill, in_sentence};
+use crate::app::words::{clay, fill, in_sentence};
 use crate::data::{Histogram, RECIPE_COLORS_SRGB, Segment};
 use crate::document::{MAX_RECIPES, Recipe, SegmentLook};
 use crate::render::SubjectInfo;
 
+/// Height at which the menu of tissues scrolls, points.
+const MENU_HEIGHT: f32 = 280.0;
 /// Rows that the list shows at least before it scrolls, alone and with a form below.
 const LISTED: usize = 9;
 const LISTED_WITH_FORM: usize = 4;
@@ -132,6 +134,13 @@ pub(crate) fn ui(
                 let name = fill(w().tissue_n, &[&number]);
                 commands.push(Command::Tissue(TissueCommand::MakeByHand(name)));
             }
+            if let Some((info, _)) = scan.filter(|_| session.clay().is_none() && !is_loading) {
+                let made = recipes.iter().map(|recipe| recipe.name.as_str());
+                let others = listed.iter().map(|entry| entry.name.as_str());
+                let others = others.filter(|name| recipes.iter().all(|r| r.name != *name));
+                let names: Vec<&str> = made.chain(others).collect();
+                clay_ui(ui, session, info, &names, commands);
+            }
         });
     }
     remember_height(ui, ui.cursor().top() - below);
@@ -205,6 +214,38 @@ fn make(session: &Session, info: &SubjectInfo) -> Command {
         (name, [0.5 * (low + high), f32::MAX])
     };
     Command::Tissue(TissueCommand::Make(name, range))
+}
+
+/// The button whose menu begins a clay: with the outer surface or with a tissue.
+fn clay_ui(
+    ui: &mut Ui,
+    session: &Session,
+    info: &SubjectInfo,
+    names: &[&str],
+    commands: &mut Vec<Command>,
+) {
+    let words = clay::w();
+    let outer = info.outer_value();
+    let button = widget::labelled_button(ui, Icon::Brush, words.begin, false, true);
+    let button = button.on_hover_text(words.begin_hint);
+    egui::Popup::menu(&button).show(|ui| {
+        let mut item = |ui: &mut Ui, title: &str, tissue: Option<&str>| {
+            if let Some(start) = session.clay_start(tissue, outer)
+                && ui.button(title).clicked()
+            {
+                commands.push(Command::Clay(ClayCommand::Begin(start)));
+                ui.close();
+            }
+        };
+        item(ui, words.outer, None);
+        egui::ScrollArea::vertical()
+            .max_height(MENU_HEIGHT)
+            .show(ui, |ui| {
+                for name in names {
+                    item(ui, &segment(name), Some(name));
+                }
+            });
+    });
 }
 
 fn row_ui(

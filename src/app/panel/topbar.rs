@@ -9,7 +9,7 @@ use crate::app::kit::widget::{self, Named as _};
 use crate::app::session::{ClayCommand, Command, LibraryCommand, Session};
 use crate::app::words::bar::w;
 use crate::app::words::{self, Lang, facts, fill, names};
-use crate::document::{ClayShape, SubjectRef};
+use crate::document::{ClayShape, ClayStart, SubjectRef};
 
 /// Width of the bar in points from which on the examples have a button in it; else they are in the menu.
 const EXAMPLES_WIDTH: f32 = 880.0;
@@ -142,7 +142,8 @@ fn subject_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         let titles = [clay.ball, clay.cube, clay.plate, clay.torus];
         for (shape, title) in ClayShape::ALL.into_iter().zip(titles) {
             if ui.selectable_label(false, title).clicked() {
-                commands.push(Command::Clay(ClayCommand::Begin(shape)));
+                let begin = ClayCommand::Begin(ClayStart::Shape(shape));
+                commands.push(Command::Clay(begin));
             }
         }
         ui.separator();

@@ -3,7 +3,7 @@
 use glam::{Quat, Vec3};
 
 use super::found::Found;
-use crate::document::{ClayMove, ClayShape, ClayTool, ToolShape};
+use crate::document::{ClayMove, ClayStart, ClayTool, ToolShape};
 
 /// The sizes that a hand may hold, subject units.
 const SIZES: [f32; 2] = [0.01, 0.5];
@@ -247,8 +247,8 @@ impl Together {
 /// One thing to do with a clay.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ClayCommand {
-    /// Begins a document with a clay of a built-in shape, and takes a tool in hand.
-    Begin(ClayShape),
+    /// Begins a document with a clay that no stroke has touched, and takes a tool in hand.
+    Begin(ClayStart),
     /// Takes the tool in hand, or puts it away.
     Toggle,
     /// Changes the tool in the hand.

@@ -207,7 +207,7 @@ fn key_after(keys: &[ClayKey], pose: &Pose, own: f32) -> ClayKey {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{ClayShape, Document};
+    use crate::document::{ClayShape, ClayStart, Document};
 
     fn run(session: &mut Session, command: ClayCommand) {
         session.run(Command::Clay(command), 0.0);
@@ -216,7 +216,10 @@ mod tests {
     /// With a tool laid down on top of a ball.
     fn session(is_together: bool, acts: bool) -> Session {
         let mut session = Session::new(Document::new());
-        run(&mut session, ClayCommand::Begin(ClayShape::Ball));
+        run(
+            &mut session,
+            ClayCommand::Begin(ClayStart::Shape(ClayShape::Ball)),
+        );
         if is_together {
             run(&mut session, ClayCommand::Together);
         }

@@ -15,7 +15,8 @@ use super::tool::Tool;
 use crate::app::words::clay::w;
 use crate::app::words::fill;
 use crate::document::{
-    Camera, Clay, ClayKey, ClayMove, ClayStart, ClayStroke, ClayTool, Edit, SubjectRef, ToolShape,
+    Camera, Clay, ClayKey, ClayMove, ClayStart, ClayStroke, ClayTool, ClayVolume, Edit, MeshRef,
+    SubjectRef, ToolShape, VoxelPart, VoxelSource,
 };
 use crate::math::{Similarity, smooth_path};
 
@@ -62,9 +63,9 @@ impl Session {
 
     pub(super) fn run_clay(&mut self, command: ClayCommand) {
         match command {
-            ClayCommand::Begin(shape) => {
+            ClayCommand::Begin(from) => {
                 self.choose_subject(SubjectRef::Clay(Arc::new(Clay {
-                    from: ClayStart::Shape(shape),
+                    from,
                     ..Clay::default()
                 })));
                 self.take_clay_tool();
@@ -100,6 +101,32 @@ impl Session {
             }
             ClayCommand::Select(index) => self.select(Selection::Stroke(index)),
         }
+    }
+
+    /// What a clay of the subject that is shown begins with: of a mesh its file, of a volume the tissue of this name,
+    /// or all from a value up where none is named. `None` if no clay can be made of that: of several meshes, of a
+    /// figure, of a tissue that is painted or lies in a label volume of its own.
+    pub fn clay_start(&self, tissue: Option<&str>, outer_value: f32) -> Option<ClayStart> {
+        let shown = self.illustration();
+        if !self.view.has_values() {
+            return mesh_of(&shown.subject).map(ClayStart::Mesh);
+        }
+        let of = voxels_of(&shown.subject)?;
+        let part = match tissue {
+            None => VoxelPart::Iso(f64::from(outer_value)),
+            Some(name) => match shown.recipes.iter().find(|recipe| recipe.name == name) {
+                Some(recipe) => VoxelPart::Iso(f64::from(recipe.from.range()?[0])),
+                None if matches!(of, VoxelSource::File { .. }) && !shown.segments.is_empty() => {
+                    return None;
+                }
+                None => VoxelPart::Segment(name.to_owned()),
+            },
+        };
+        Some(ClayStart::Volume(Box::new(ClayVolume {
+            of,
+            part,
+            has_all_walls: false,
+        })))
     }
 
     /// Puts a mesh, or the clay as it stands, among the tools of the clay and takes it in hand: one step of undo.
@@ -488,11 +515,70 @@ fn is_near(way: &[Vec3], places: &[Vec3], tolerance: f32) -> bool {
         && way.iter().all(|pos| away(pos, places) <= tolerance)
 }
 
+/// The file of a subject that is one mesh.
+fn mesh_of(subject: &SubjectRef) -> Option<MeshRef> {
+    let (src, sha256, name, reading) = match subject {
+        SubjectRef::Address {
+            src,
+            sha256,
+            name,
+            reading,
+        } => (Some(src.clone()), sha256.clone(), name, reading),
+        SubjectRef::Supplied {
+            sha256,
+            name,
+            reading,
+        } => (None, Some(sha256.clone()), name, reading),
+        SubjectRef::Meshes { meshes, .. } => match meshes.as_slice() {
+            [one] => return Some(one.clone()),
+            _ => return None,
+        },
+        SubjectRef::Builtin { .. } | SubjectRef::Clay(_) => return None,
+    };
+    Some(MeshRef {
+        index: 0,
+        src,
+        sha256,
+        name: name.clone(),
+        reading: reading.mesh,
+    })
+}
+
+/// Where the voxels of a subject come from, if it is a volume.
+fn voxels_of(subject: &SubjectRef) -> Option<VoxelSource> {
+    match subject {
+        SubjectRef::Builtin { name } => Some(VoxelSource::Builtin(name.clone())),
+        SubjectRef::Address {
+            src,
+            sha256,
+            name,
+            reading,
+        } => Some(VoxelSource::File {
+            src: Some(src.clone()),
+            sha256: sha256.clone(),
+            name: name.clone(),
+            reading: reading.clone(),
+        }),
+        SubjectRef::Supplied {
+            sha256,
+            name,
+            reading,
+        } => Some(VoxelSource::File {
+            src: None,
+            sha256: Some(sha256.clone()),
+            name: name.clone(),
+            reading: reading.clone(),
+        }),
+        SubjectRef::Meshes { .. } | SubjectRef::Clay(_) => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::app::session::{Command, Effect};
-    use crate::document::{ClayShape, Document};
+    use crate::data::{Subject, Surface};
+    use crate::document::{ClayShape, Document, clay_to_text};
 
     const UP: Touch = Touch {
         pos: Vec3::new(0.2, 0.0, 0.45),
@@ -514,7 +600,10 @@ mod tests {
 
     fn session() -> Session {
         let mut session = Session::new(Document::new());
-        session.run(Command::Clay(ClayCommand::Begin(ClayShape::Ball)), 0.0);
+        session.run(
+            Command::Clay(ClayCommand::Begin(ClayStart::Shape(ClayShape::Ball))),
+            0.0,
+        );
         assert_eq!(session.tool(), Tool::Clay);
         session
     }
@@ -815,5 +904,76 @@ mod tests {
         assert_eq!(session.tool(), Tool::Look);
         draw(&mut session, StrokeWay::Move, &arc(), true);
         assert!(session.clay().is_none());
+    }
+
+    /// As [`Session::clay_start`], as JSON.
+    fn start_of(session: &Session, tissue: Option<&str>) -> Option<String> {
+        let from = session.clay_start(tissue, -500.0)?;
+        let clay = Clay {
+            from,
+            ..Clay::default()
+        };
+        Some(clay_to_text(&clay))
+    }
+
+    #[test]
+    fn a_clay_begins_with_what_is_shown() {
+        let head = r#"{ "fabrica": 1, "subject": { "builtin": "head" } }"#;
+        let mut session = Session::with_scan(head, 1.0, &[(1, "skin")]);
+        let outer = start_of(&session, None).unwrap();
+        assert!(
+            outer.contains(r#""iso":-500"#) && outer.contains("head"),
+            "{outer}"
+        );
+        let skin = start_of(&session, Some("skin")).unwrap();
+        assert!(skin.contains(r#""segment":"skin""#), "{skin}");
+        let before = session.document().clone();
+        let start = session.clay_start(Some("skin"), 0.0).unwrap();
+        session.run(Command::Clay(ClayCommand::Begin(start)), 0.0);
+        assert!(session.clay().is_some() && session.tool() == Tool::Clay);
+        session.run(Command::Undo, 0.0);
+        assert_eq!(*session.document(), before);
+    }
+
+    #[test]
+    fn a_scan_becomes_clay_by_values_or_by_its_own_segments() {
+        let hash = "0".repeat(64);
+        let features = r#""features": [{ "name": "bone", "from": { "threshold": [200, 3000] } },
+            { "name": "by hand", "paint": [{ "radius": 3, "path": [0, 0, 0] }] }]"#;
+        let scan = |more: &str| {
+            let json = format!(
+                r#"{{ "fabrica": 1, "subject": {{ "sha256": "{hash}", "name": "scan", {features}{more} }} }}"#
+            );
+            Session::with_scan(&json, 1.0, &[(1, "liver")])
+        };
+        let alone = scan("");
+        let bone = start_of(&alone, Some("bone")).unwrap();
+        assert!(
+            bone.contains(r#""iso":200"#) && bone.contains(&hash),
+            "{bone}"
+        );
+        assert_eq!(start_of(&alone, Some("by hand")), None);
+        assert!(start_of(&alone, Some("liver")).unwrap().contains("liver"));
+        let labels = "1".repeat(64);
+        let beside = scan(&format!(r#", "segments": [{{ "sha256": "{labels}" }}]"#));
+        assert_eq!(start_of(&beside, Some("liver")), None);
+        assert!(start_of(&beside, Some("bone")).is_some());
+        let mesh = format!(
+            r#"{{ "fabrica": 1, "subject": {{ "meshes": [{{ "sha256": "{hash}", "units": "m" }}] }} }}"#
+        );
+        let with_surface = |json: &str| {
+            let apple = crate::subjects::mesh("apple").expect("a built-in mesh");
+            let surface = Surface::new(&apple, None, &mut |_| true).expect("it has a size");
+            let mut session = Session::new(Document::from_json(json).expect("a valid document"));
+            session.set_subject(&Subject::from(Arc::new(surface)));
+            session
+        };
+        let text = start_of(&with_surface(&mesh), None).unwrap();
+        assert!(
+            text.contains(&hash) && text.contains(r#""units":"m""#),
+            "{text}"
+        );
+        let apple = with_surface(r#"{ "fabrica": 1, "subject": { "builtin": "apple" } }"#);
+        assert_eq!(start_of(&apple, None), None, "it has no file");
     }
 }

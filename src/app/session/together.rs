@@ -110,7 +110,7 @@ impl Session {
 mod tests {
     use super::*;
     use crate::app::session::{ClayCommand, Command, StrokeWay, Tool, Touch};
-    use crate::document::{ClayShape, Document};
+    use crate::document::{ClayShape, ClayStart, Document};
 
     fn run(session: &mut Session, command: ClayCommand) {
         session.run(Command::Clay(command), 0.0);
@@ -118,7 +118,10 @@ mod tests {
 
     fn session() -> Session {
         let mut session = Session::new(Document::new());
-        run(&mut session, ClayCommand::Begin(ClayShape::Ball));
+        run(
+            &mut session,
+            ClayCommand::Begin(ClayStart::Shape(ClayShape::Ball)),
+        );
         run(&mut session, ClayCommand::Together);
         session
     }

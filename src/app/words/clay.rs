@@ -4,6 +4,10 @@ words! {
     /// Texts of the tool that shapes a clay and of the list of strokes.
     Clay {
         heading: "Strokes", "Striche", "Trazos", "笔划";
+        begin: "Shape it as clay", "Als Ton formen", "Modelarlo como arcilla", "作为黏土塑形";
+        begin_hint: "A new document begins with a clay of a tissue, or of the outer surface; undo brings this one back", "Ein neues Dokument beginnt mit einem Ton aus einem Gewebe oder aus der äußeren Oberfläche; Rückgängig bringt dieses zurück", "Empieza un documento nuevo con una arcilla de un tejido o de la superficie exterior; deshacer recupera este", "以某个组织或外表面的黏土开始新文档；撤销可恢复当前文档";
+        outer: "Outer surface", "Äußere Oberfläche", "Superficie exterior", "外表面";
+        begin_mesh_hint: "A new document begins with a clay of this mesh; undo brings this one back", "Ein neues Dokument beginnt mit einem Ton aus diesem Netz; Rückgängig bringt dieses zurück", "Empieza un documento nuevo con una arcilla de esta malla; deshacer recupera este", "以此网格的黏土开始新文档；撤销可恢复当前文档";
         shape: "Shape the clay", "Ton formen", "Modelar la arcilla", "塑形";
         put_away: "Put the tool away", "Werkzeug weglegen", "Guardar el instrumento", "放下器械";
         none: "No stroke yet: take the tool and drag over the clay.", "Noch kein Strich: das Werkzeug nehmen und über den Ton ziehen.", "Aún no hay trazos: tome el instrumento y arrastre sobre la arcilla.", "尚无笔划：拿起器械，在黏土上拖动。";

@@ -3,18 +3,20 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use js_sys::Reflect;
+use js_sys::{Array, Function, Promise, Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
 
 use super::answer::post;
 use super::blobs::{BlobFiles, fetch, name_of, not_fetched};
 use super::fault;
-use super::pieces::unpacked_grids;
-use super::task::{Part, ScanTask};
+use super::pieces::{unpacked, unpacked_grids};
+use super::task::{Part, ScanTask, text_of_reading};
 use crate::assets::LoadEvent;
-use crate::document::clay_from_text;
+use crate::data::{SubjectSink as _, VolumeBuilder};
+use crate::document::{Clay, ClayVolume, VoxelSource, clay_from_text};
 use crate::load::mesh_among;
-use crate::shell::clays::{ClayDesk, NO_SCANS, make_clay, make_clay_of_file};
+use crate::shell::clays::{ClayDesk, make_clay, make_clay_of_file, make_clay_of_volume, whole};
 
 thread_local! {
     /// What the last clay's strokes left: a worker rests between strokes.
@@ -26,11 +28,11 @@ pub fn loaded() {
     fault::report_panics();
 }
 
-/// Does the task of a message; called by web/worker.js.
+/// Does the task of a message; called by web/worker.js. `load` gives a promise of another part's functions by its name.
 ///
 /// # Errors
 /// If the message is no task, or the page cannot take the answer.
-pub async fn run(message: JsValue) -> Result<(), JsValue> {
+pub async fn run(message: JsValue, load: Function) -> Result<(), JsValue> {
     fault::heed_scope(&message);
     post::module_unless_known(&message, Part::Clay)?;
     let text = Reflect::get(&message, &"clay".into())?;
@@ -43,13 +45,8 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
         DESK.with_borrow_mut(|desk| make_clay(desk, &clay, &mut post));
         return Ok(());
     }
-    if clay.volume().is_some() {
-        // Not even fetched.
-        return post::event(LoadEvent::Failed {
-            message: NO_SCANS.to_owned(),
-            details: String::new(),
-            fault: None,
-        });
+    if let Some(meant) = clay.volume() {
+        return of_scan(&clay, meant, &message, &load).await;
     }
     let (mut files, name) = match ScanTask::of(&message)? {
         ScanTask::Address { address, .. } => match fetch(&address).await {
@@ -68,5 +65,54 @@ pub async fn run(message: JsValue) -> Result<(), JsValue> {
         ScanTask::Mesh(..) | ScanTask::Field { .. } => return Err("a clay without a file".into()),
     };
     DESK.with_borrow_mut(|desk| make_clay_of_file(desk, &clay, (&mut files, &name), &mut post));
+    Ok(())
+}
+
+/// Shapes a clay that begins with a part of a scan. The part that reads scans reads it, in this worker.
+async fn of_scan(
+    clay: &Arc<Clay>,
+    meant: &ClayVolume,
+    message: &JsValue,
+    load: &Function,
+) -> Result<(), JsValue> {
+    let mut post = |event: LoadEvent| post::event(event).is_ok();
+    // A file that the document names by its hash is known before it is looked at.
+    if DESK.with_borrow(|desk| desk.begun(clay, || None)).is_some() {
+        DESK.with_borrow_mut(|desk| make_clay(desk, clay, &mut post));
+        return Ok(());
+    }
+    if let VoxelSource::File { reading, .. } = &meant.of {
+        Reflect::set(message, &"reading".into(), &text_of_reading(reading).into())?;
+    }
+    let part: Promise = load
+        .call1(&JsValue::NULL, &Part::Scans.name().into())?
+        .unchecked_into();
+    let part = JsFuture::from(part).await?;
+    let read: Function = Reflect::get(&part, &"voxels".into())?.unchecked_into();
+    let read: Promise = read.call1(&part, message)?.unchecked_into();
+    // Without one the reader has told why.
+    let Ok(read) = JsFuture::from(read).await?.dyn_into::<Array>() else {
+        return Ok(());
+    };
+    let name = read.get(0).as_string().unwrap_or_default();
+    let sha256 = read.get(1).dyn_ref::<Uint8Array>().map(Uint8Array::to_vec);
+    let sha256 = sha256.and_then(|hash| hash.try_into().ok());
+    let mut builder = VolumeBuilder::new();
+    for piece in read.get(2).unchecked_into::<Array>().iter() {
+        let piece: Array = piece.unchecked_into();
+        let word = piece.get(0).as_string().unwrap_or_default();
+        let part = unpacked(&word, &piece.get(1)).ok_or("a piece of another kind")?;
+        builder.take(part)?;
+    }
+    match whole(builder, &name) {
+        Ok(volume) => DESK.with_borrow_mut(|desk| {
+            make_clay_of_volume(desk, clay, (&volume, &name), sha256, &mut post);
+        }),
+        Err(error) => post::event(LoadEvent::Failed {
+            message: error.to_string(),
+            details: String::new(),
+            fault: error.fault(),
+        })?,
+    }
     Ok(())
 }

@@ -1,18 +1,23 @@
 //! The part that reads scans, label volumes and displacement fields.
 
+use js_sys::{Array, Uint8Array};
 use wasm_bindgen::prelude::*;
 use web_sys::Blob;
 
 use super::answer::post;
 use super::blobs::{BlobFiles, fetch, name_of, not_fetched};
 use super::fault;
+use super::pieces::packed;
 use super::task::{Part, ScanTask, limits_of};
 use crate::assets::{LoadEvent, SegmentationsExpected};
-use crate::data::VolumeLimits;
+use crate::data::{SubjectPart, SubjectSink, VolumeLimits};
 use crate::document::Reading;
-use crate::load::{is_field, main_name, read_field};
+use crate::load::{LoadReport, is_field, main_name, read_field};
+use crate::shell::clays::{READING, read_voxels};
 use crate::shell::figures::figure_file;
-use crate::shell::loading::{is_mesh_file, read_scan_file, read_segments, take_segmentations};
+use crate::shell::loading::{
+    PostingSink, is_mesh_file, read_scan_file, read_segments, take_segmentations,
+};
 
 /// Called once when the part has been loaded.
 pub fn loaded() {
@@ -112,4 +117,73 @@ async fn read_files(
     let name = if rest.contains(&name) { name } else { first };
     let name = main_name(&mut files, &name);
     read(&mut files, &name, limits, reading)
+}
+
+/// Reads the scan that a clay begins with, whole, for the part that shapes it, which calls this in its own worker with
+/// the message that it was given. Returns the file's name, its hash as bytes, and the pieces as pairs of
+/// [`packed`]; nothing if the scan cannot be read, which the page has then been told.
+///
+/// # Errors
+/// If the message names no scan, or the page cannot take an answer.
+pub async fn voxels(message: JsValue) -> Result<JsValue, JsValue> {
+    fault::heed_scope(&message);
+    let (mut files, name, reading) = match ScanTask::of(&message)? {
+        ScanTask::Address {
+            address, reading, ..
+        } => {
+            let name = name_of(&address);
+            match fetch(&address).await {
+                Ok(blob) => {
+                    let files = BlobFiles::new(vec![(name.clone(), blob)]).await?;
+                    (files, name, reading)
+                }
+                Err(error) => {
+                    post::event(not_fetched("scan", &address, &error))?;
+                    return Ok(JsValue::UNDEFINED);
+                }
+            }
+        }
+        ScanTask::Files { files, reading, .. } => {
+            let first = files.first().map(|file| file.0.clone()).unwrap_or_default();
+            let (mut files, _) = BlobFiles::of_all(files).await?;
+            let name = main_name(&mut files, &first);
+            (files, name, reading)
+        }
+        ScanTask::Mesh(..) | ScanTask::Field { .. } => return Err("a clay without a scan".into()),
+    };
+    let mut post = |event: LoadEvent| post::event(event).is_ok();
+    let mut packing = Packing {
+        sink: PostingSink::new(&mut post),
+        pieces: Array::new(),
+    };
+    let mut report = LoadReport::default();
+    let outcome = read_voxels((&mut files, &name), &reading, &mut packing, &mut report);
+    let Packing { sink, pieces } = packing;
+    if outcome.is_err() {
+        sink.end(outcome, &report, None);
+        return Ok(JsValue::UNDEFINED);
+    }
+    for warning in &report.warnings {
+        post(LoadEvent::Notice(warning.to_string()));
+    }
+    let hash = report.sha256.map(|hash| Uint8Array::from(&hash[..]));
+    Ok(Array::of3(&name.into(), &hash.into(), &pieces).into())
+}
+
+/// Takes a scan to pieces that another program can take.
+struct Packing<'a> {
+    sink: PostingSink<'a>,
+    pieces: Array,
+}
+
+impl SubjectSink for Packing<'_> {
+    fn take(&mut self, part: SubjectPart) -> Result<(), String> {
+        let (word, held) = packed(part).map_err(|error| fault::text_of(&error))?;
+        self.pieces.push(&Array::of2(&word.into(), &held));
+        Ok(())
+    }
+
+    fn progress(&mut self, fraction: f32) -> bool {
+        self.sink.progress(READING * fraction)
+    }
 }
