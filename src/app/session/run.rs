@@ -316,7 +316,11 @@ impl Session {
             See::Cross(pos) => view.set_cross(pos),
             See::ReadCross(read) => view.cross_read = read,
             See::ToggleGhost => view.has_ghost = !view.has_ghost,
-            See::ToggleWires => view.has_wires = !view.has_wires,
+            See::ToggleWires => {
+                view.has_wires = !view.has_wires;
+                // The picture is another one.
+                self.revision += 1;
+            }
             See::ToggleMeasure => {
                 let is_on = self.tool.is_measuring();
                 self.take_tool(if is_on {

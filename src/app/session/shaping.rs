@@ -576,7 +576,7 @@ fn voxels_of(subject: &SubjectRef) -> Option<VoxelSource> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::session::{Command, Effect};
+    use crate::app::session::{Command, Effect, See};
     use crate::data::{Subject, Surface};
     use crate::document::{ClayShape, Document, clay_to_text};
 
@@ -935,6 +935,31 @@ mod tests {
         assert_eq!(*session.document(), before);
     }
 
+    /// With the built-in apple as the subject's mesh.
+    fn with_surface(json: &str) -> Session {
+        let apple = crate::subjects::mesh("apple").expect("a built-in mesh");
+        let surface = Surface::new(&apple, None, &mut |_| true).expect("it has a size");
+        let mut session = Session::new(Document::from_json(json).expect("a valid document"));
+        session.set_subject(&Subject::from(Arc::new(surface)));
+        session
+    }
+
+    #[test]
+    fn wires_are_seen_on_meshes_alone() {
+        let toggle = || Command::See(See::ToggleWires);
+        let mut scan = Session::with_scan(r#"{ "fabrica": 1 }"#, 1.0, &[]);
+        scan.run(toggle(), 0.0);
+        assert_eq!(scan.seen(), None);
+        let mut mesh = with_surface(r#"{ "fabrica": 1, "subject": { "builtin": "apple" } }"#);
+        let (before, document) = (mesh.revision, mesh.document().clone());
+        mesh.run(toggle(), 0.0);
+        assert!(mesh.seen().is_some_and(|seen| seen.look.has_wires));
+        assert!(mesh.revision > before, "the picture is drawn anew");
+        assert_eq!(*mesh.document(), document, "it is no part of the document");
+        mesh.run(toggle(), 0.0);
+        assert_eq!(mesh.seen(), None);
+    }
+
     #[test]
     fn a_scan_becomes_clay_by_values_or_by_its_own_segments() {
         let hash = "0".repeat(64);
@@ -961,13 +986,6 @@ mod tests {
         let mesh = format!(
             r#"{{ "fabrica": 1, "subject": {{ "meshes": [{{ "sha256": "{hash}", "units": "m" }}] }} }}"#
         );
-        let with_surface = |json: &str| {
-            let apple = crate::subjects::mesh("apple").expect("a built-in mesh");
-            let surface = Surface::new(&apple, None, &mut |_| true).expect("it has a size");
-            let mut session = Session::new(Document::from_json(json).expect("a valid document"));
-            session.set_subject(&Subject::from(Arc::new(surface)));
-            session
-        };
         let text = start_of(&with_surface(&mesh), None).unwrap();
         assert!(
             text.contains(&hash) && text.contains(r#""units":"m""#),
