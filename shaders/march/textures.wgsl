@@ -32,17 +32,20 @@ fn footprint_on(a: vec3f, b: vec3f, c: vec3f, weights: vec3f, along: vec3f, next
 /// Half the width of a wire, and how far it fades beside that, pixels.
 const WIRE_HALF: f32 = 0.5;
 const WIRE_FADE: f32 = 0.8;
+/// Triangles that are less wide have no wires, and those that are wider have them whole, pixels.
+const WIRE_ROOM: vec2f = vec2f(1.5, 8.0);
 /// The part of a colour that a wire leaves.
 const WIRE_KEEPS: f32 = 0.25;
 
-/// A colour with the edges of its triangle drawn over it. They fade where a triangle is smaller than a pixel, so
-/// that no noise is left there.
+/// A colour with the edges of its triangle drawn over it. They fade where triangles are little wider than the lines:
+/// they would be one dark patch.
 fn wired(color: vec3f, at: Footprint) -> vec3f {
     let per_pixel = max(sqrt(at.right * at.right + at.down * at.down), vec3f(1e-9));
     let pixels = at.weights / per_pixel;
     let nearest = min(pixels.x, min(pixels.y, pixels.z));
     let line = 1.0 - smoothstep(WIRE_HALF, WIRE_HALF + WIRE_FADE, nearest);
     // About as many pixels as the triangle is wide.
-    let room = clamp(1.0 / max(per_pixel.x, max(per_pixel.y, per_pixel.z)), 0.0, 1.0);
+    let wide = 1.0 / max(per_pixel.x, max(per_pixel.y, per_pixel.z));
+    let room = smoothstep(WIRE_ROOM.x, WIRE_ROOM.y, wide);
     return color * mix(1.0, WIRE_KEEPS, line * room);
 }
