@@ -1,8 +1,8 @@
 //! A clay is shaped by hand in a real browser, and handed on as a link.
 
-use super::hand::{changed, click, document, find, focus, mark, press_with};
+use super::hand::{changed, click, document, drop_files, find, focus, mark, press_with};
 use super::harness::{Tab, with_browser};
-use super::parts::count;
+use super::parts::{count, small_scan};
 use super::*;
 
 const CLAY: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05 } } }"#;
@@ -64,5 +64,38 @@ fn a_clay_is_shaped_by_hand_and_handed_on() {
         let off = difference(&shaped, &again, WHITE);
         assert!(off.mean < 0.2, "the same clay: {off:?}");
         other.assert_no_complaints().await;
+    });
+}
+
+/// A scan that the reader drops becomes clay by two clicks, and is there again after undo.
+#[test]
+fn a_dropped_scan_becomes_clay() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        session.server.add("ball.nrrd", small_scan());
+        let tab = session.coarse_viewer("", SIZE).await;
+        focus(&tab).await;
+        tab.settled().await;
+        drop_files(&tab, &["ball.nrrd"]).await;
+        tab.settled().await;
+        let scan = document(&tab).await["subject"].clone();
+        assert!(scan["sha256"].is_string(), "{scan}");
+        click(&tab, "Panel: Tissues").await;
+        click(&tab, "Shape it as clay").await;
+        mark(&tab, "subject").await;
+        click(&tab, "Outer surface").await;
+        let subject = changed(&tab, "subject").await;
+        let from = &subject["clay"]["from"];
+        assert_eq!(from["of"]["sha256"], scan["sha256"], "{subject}");
+        assert!(from["iso"].is_number(), "{subject}");
+        tab.settled().await;
+        click(&tab, "Put the tool away").await;
+        tab.settled().await;
+        let clay = object_part(&tab.picture("clay_of_a_dropped_scan").await);
+        assert!(drawn_pixels(&clay) > 500, "the ball is seen");
+        mark(&tab, "subject").await;
+        press_with(&tab, 2, "z", None).await;
+        assert_eq!(changed(&tab, "subject").await, scan);
+        tab.settled().await;
+        tab.assert_no_complaints().await;
     });
 }
