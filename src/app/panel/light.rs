@@ -113,22 +113,13 @@ fn direction([side, height]: [f32; 2]) -> Vec3 {
 fn on_ball(from: Vec3) -> Vec2 {
     let aside = Vec2::new(from.x, -from.y);
     let away_deg = from.z.clamp(-1.0, 1.0).acos().to_degrees();
-    let along = if aside.length() > 1e-6 {
-        aside.normalized()
-    } else {
-        Vec2::ZERO
-    };
-    along * (away_deg / RIM_DEG).min(1.0)
+    aside.normalized() * (away_deg / RIM_DEG).min(1.0)
 }
 
 /// Towards the light that stands at a place of the ball, unit.
 fn from_ball(at: Vec2) -> Vec3 {
     let away = (at.length().min(1.0) * RIM_DEG).to_radians();
-    let along = if at.length() > 1e-6 {
-        at.normalized()
-    } else {
-        Vec2::ZERO
-    };
+    let along = at.normalized();
     Vec3::new(along.x * away.sin(), -along.y * away.sin(), away.cos())
 }
 

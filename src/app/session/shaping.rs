@@ -16,7 +16,7 @@ use crate::app::words::clay::w;
 use crate::app::words::fill;
 use crate::document::{
     Camera, Clay, ClayKey, ClayMove, ClayStart, ClayStroke, ClayTool, ClayVolume, Edit, MeshRef,
-    SubjectRef, ToolShape, VoxelPart, VoxelSource,
+    Reading, SubjectRef, ToolShape, VoxelPart, VoxelSource,
 };
 use crate::math::{Similarity, smooth_path};
 
@@ -515,26 +515,35 @@ fn is_near(way: &[Vec3], places: &[Vec3], tolerance: f32) -> bool {
         && way.iter().all(|pos| away(pos, places) <= tolerance)
 }
 
-/// The file of a subject that is one mesh.
-fn mesh_of(subject: &SubjectRef) -> Option<MeshRef> {
-    let (src, sha256, name, reading) = match subject {
+/// The address and the hash of a subject's file, its name, and how it is read; `None` if it is no single file.
+type File<'a> = (Option<String>, Option<String>, &'a String, &'a Reading);
+
+fn file_of(subject: &SubjectRef) -> Option<File<'_>> {
+    match subject {
         SubjectRef::Address {
             src,
             sha256,
             name,
             reading,
-        } => (Some(src.clone()), sha256.clone(), name, reading),
+        } => Some((Some(src.clone()), sha256.clone(), name, reading)),
         SubjectRef::Supplied {
             sha256,
             name,
             reading,
-        } => (None, Some(sha256.clone()), name, reading),
-        SubjectRef::Meshes { meshes, .. } => match meshes.as_slice() {
-            [one] => return Some(one.clone()),
-            _ => return None,
-        },
-        SubjectRef::Builtin { .. } | SubjectRef::Clay(_) => return None,
-    };
+        } => Some((None, Some(sha256.clone()), name, reading)),
+        SubjectRef::Builtin { .. } | SubjectRef::Meshes { .. } | SubjectRef::Clay(_) => None,
+    }
+}
+
+/// The file of a subject that is one mesh.
+fn mesh_of(subject: &SubjectRef) -> Option<MeshRef> {
+    if let SubjectRef::Meshes { meshes, .. } = subject {
+        let [one] = meshes.as_slice() else {
+            return None;
+        };
+        return Some(one.clone());
+    }
+    let (src, sha256, name, reading) = file_of(subject)?;
     Some(MeshRef {
         index: 0,
         src,
@@ -546,31 +555,16 @@ fn mesh_of(subject: &SubjectRef) -> Option<MeshRef> {
 
 /// Where the voxels of a subject come from, if it is a volume.
 fn voxels_of(subject: &SubjectRef) -> Option<VoxelSource> {
-    match subject {
-        SubjectRef::Builtin { name } => Some(VoxelSource::Builtin(name.clone())),
-        SubjectRef::Address {
-            src,
-            sha256,
-            name,
-            reading,
-        } => Some(VoxelSource::File {
-            src: Some(src.clone()),
-            sha256: sha256.clone(),
-            name: name.clone(),
-            reading: reading.clone(),
-        }),
-        SubjectRef::Supplied {
-            sha256,
-            name,
-            reading,
-        } => Some(VoxelSource::File {
-            src: None,
-            sha256: Some(sha256.clone()),
-            name: name.clone(),
-            reading: reading.clone(),
-        }),
-        SubjectRef::Meshes { .. } | SubjectRef::Clay(_) => None,
+    if let SubjectRef::Builtin { name } = subject {
+        return Some(VoxelSource::Builtin(name.clone()));
     }
+    let (src, sha256, name, reading) = file_of(subject)?;
+    Some(VoxelSource::File {
+        src,
+        sha256,
+        name: name.clone(),
+        reading: reading.clone(),
+    })
 }
 
 #[cfg(test)]

@@ -254,8 +254,7 @@ impl ViewState {
 
     /// True if the subject is a mesh, or a clay, and nothing else.
     pub fn is_mesh(&self) -> bool {
-        let subject = self.subject.as_ref();
-        subject.is_some_and(|subject| subject.scan.is_none() && !subject.is_figure)
+        !self.has_values() && !self.is_figure()
     }
 
     /// False if a subject is shown that has no values: panels leave out what is about values.
