@@ -64,8 +64,9 @@ pub use self::services::{
     Message, MissingDocument, SavedTo, Services, SetText, TextOver, TextToSet, WhyMissing,
 };
 pub use self::session::{
-    ClayCommand, ClayHand, Command, GizmoMode, LinkChange, Pane, PicturePaper, STORED_DOCUMENT,
-    SaveFile, See, Shipped, StandardView, StepCommand, StrokeWay, Ticket, TissueCommand, Tool,
+    ClayCommand, Command, GizmoMode, HandCommand, HeldTool, LinkChange, Pane, PicturePaper,
+    STORED_DOCUMENT, SaveFile, See, Shipped, StandardView, StepCommand, StrokeWay, Ticket,
+    TissueCommand, Tool,
 };
 #[cfg(feature = "app")]
 pub use self::window::{App, Start};

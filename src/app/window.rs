@@ -22,7 +22,7 @@ use crate::app::picture::small::OpenPicture;
 use crate::app::services::{MissingDocument, Services};
 use crate::app::session::{
     Command, Effect, Focus, Gravity, Listing, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING,
-    STORED_PICTURE, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket, Tool,
+    STORED_PICTURE, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket,
 };
 use crate::app::words::{self, Lang};
 use crate::assets::{Assets, Bending, SegmentationsExpected, TissueWork, Want};
@@ -560,7 +560,7 @@ impl App {
             || matches!(self.focus, Some(Focus::Search | Focus::Tissues));
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
         let is_sheet_open = self.is_sheet_open();
-        let is_shaping = self.session.tool() == Tool::Clay;
+        let is_shaping = self.session.has_hand();
         if !is_typing && !is_sheet_open {
             ui.input(|i| {
                 commands.extend(i.events.iter().filter_map(|event| match event {

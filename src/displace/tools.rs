@@ -348,6 +348,42 @@ impl ToolShape {
         is_same && self.count() == other.count()
     }
 
+    /// Half of its longest side, in the lengths of its numbers.
+    pub fn half_side(&self) -> f32 {
+        match self {
+            Self::Ball { radius } => *radius,
+            Self::Ellipsoid { radii } => radii.max_element(),
+            Self::Capsule { radius, length } => 0.5 * length + radius,
+            Self::Box { half, .. } => half.max_element(),
+            Self::Torus { ring, radius } => ring + radius,
+            Self::Curve { points, radius } => {
+                let low = points.iter().copied().reduce(Vec3::min).unwrap_or_default();
+                let high = points.iter().copied().reduce(Vec3::max).unwrap_or_default();
+                0.5 * (high - low).max_element() + radius
+            }
+            Self::Mesh { longest, .. } | Self::Clay { longest, .. } => 0.5 * longest,
+        }
+    }
+
+    /// True if both are the same mesh, the same clay, or curves of the same form, in any size.
+    pub fn has_form_of(&self, other: &Self) -> bool {
+        let sizes = [self, other].map(Self::half_side);
+        let [own, others] = [self, other].map(Self::numbers);
+        let is_near = |(a, b): (&f32, &f32)| (a / sizes[0] - b / sizes[1]).abs() < 0.02;
+        self.is_like(other) && own.iter().zip(&others).all(is_near)
+    }
+
+    /// The same form, so many times as large.
+    #[must_use]
+    pub fn scaled(&self, by: f32) -> Self {
+        let mut other = self.clone();
+        other
+            .numbers_mut()
+            .into_iter()
+            .for_each(|number| *number *= by);
+        other
+    }
+
     /// All of its numbers, in the order in which the document names them.
     pub fn numbers(&self) -> Vec<f32> {
         let mut own = self.clone();

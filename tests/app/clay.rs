@@ -1,7 +1,7 @@
 //! A clay in the window: it is shaped as far as its strokes are shown, and its captions go with it.
 
 use super::*;
-use fabrica::app::{ClayCommand, ClayHand, StrokeWay};
+use fabrica::app::{HandCommand, HeldTool, StrokeWay};
 use fabrica::assets::Source;
 
 /// Frames of a short passage, with those until the clay is there, and some more.
@@ -133,9 +133,9 @@ fn a_clay_is_shaped_by_hand() {
     assert_eq!(window.strokes_asked().last(), Some(&1), "it is shaped");
     // Another tool, pulled along the normal; all of it is one step of undo.
     window.click("Larger tool");
-    window.run_command(fabrica::app::Command::Clay(ClayCommand::Hold(ClayHand {
+    window.run_command(fabrica::app::Command::Hand(HandCommand::Hold(HeldTool {
         way: StrokeWay::Push,
-        ..ClayHand::default()
+        ..HeldTool::default()
     })));
     window.drag(middle, vec2(0.0, -80.0));
     window.wait_for_strokes(2);
@@ -146,9 +146,9 @@ fn a_clay_is_shaped_by_hand() {
     window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     window.wait_for_strokes(2);
     // Over the surface.
-    window.run_command(fabrica::app::Command::Clay(ClayCommand::Hold(ClayHand {
+    window.run_command(fabrica::app::Command::Hand(HandCommand::Hold(HeldTool {
         way: StrokeWay::Smooth,
-        ..ClayHand::default()
+        ..HeldTool::default()
     })));
     window.drag(middle, vec2(40.0, 0.0));
     window.wait_for_strokes(3);
@@ -322,9 +322,9 @@ impl Window {
         let mut window = Self::open(DESK, json);
         window.settle();
         window.click("Shape the clay");
-        window.run_command(fabrica::app::Command::Clay(ClayCommand::Hold(ClayHand {
+        window.run_command(fabrica::app::Command::Hand(HandCommand::Hold(HeldTool {
             form,
-            ..ClayHand::default()
+            ..HeldTool::default()
         })));
         window.harness.hover_at(window.picture_center());
         window.settle();
@@ -540,15 +540,54 @@ impl Window {
 }
 
 #[test]
+fn a_form_is_drawn_and_taken_in_hand() {
+    let mut window = Window::with_clay_tool(0);
+    let shapes = |window: &Window| {
+        let document = window.document();
+        let fabrica::document::SubjectRef::Clay(clay) = &document.illustration().subject else {
+            panic!("a clay")
+        };
+        let tools = clay.tools.iter().filter_map(|tool| tool.shape.as_ref());
+        tools.map(|shape| shape.points().len()).collect::<Vec<_>>()
+    };
+    let draw = || {
+        fabrica::app::Command::Hand(HandCommand::Hold(HeldTool {
+            way: StrokeWay::Form,
+            ..HeldTool::default()
+        }))
+    };
+    window.run_command(draw());
+    let middle = window.picture_center();
+    window.drag(middle - vec2(80.0, 0.0), vec2(160.0, -40.0));
+    window.settle();
+    // It takes the place of the ball that no stroke has used.
+    let [drawn] = shapes(&window)[..] else {
+        panic!("one tool: {:?}", shapes(&window))
+    };
+    assert!((2..10).contains(&drawn), "a curve of few points: {drawn}");
+    assert!(window.strokes().is_empty());
+    window.harness.hover_at(middle);
+    window.settle();
+    window.look("form drawn");
+    window.drag(middle, vec2(0.0, -60.0));
+    window.wait_for_strokes(1);
+    window.look("form drawn that has acted");
+    assert_eq!(shapes(&window), [drawn]);
+    window.undo();
+    window.undo();
+    assert_eq!(shapes(&window), [0], "the stroke, then the tool");
+}
+
+#[test]
 fn a_tool_is_laid_down_and_its_handles_act() {
     let mut window = Window::with_clay_tool(3);
     let hand = |acts| {
-        fabrica::app::Command::Clay(ClayCommand::Hold(ClayHand {
+        fabrica::app::Command::Hand(HandCommand::Hold(HeldTool {
             way: StrokeWay::Place,
             form: 3,
             mirror: [false; 3],
             acts,
-            ..ClayHand::default()
+            ..HeldTool::default()
         }))
     };
     window.run_command(hand(false));
@@ -585,8 +624,8 @@ fn a_tool_is_laid_down_and_its_handles_act() {
     window.run_command(hand(false));
     window.press(Key::J);
     window.click_at(window.picture_center());
-    window.run_command(fabrica::app::Command::Clay(ClayCommand::Hold(
-        ClayHand::default(),
+    window.run_command(fabrica::app::Command::Hand(HandCommand::Hold(
+        HeldTool::default(),
     )));
     window.drag(window.picture_center() + vec2(0.0, 60.0), vec2(60.0, 0.0));
     window.press(Key::Enter);

@@ -395,28 +395,14 @@ fn a_sweep_is_drawn_on_the_object() {
         r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#,
     );
     let before = window.document();
-    // It may stand below the end of what is seen of the catalogue.
-    let take = |window: &mut Window| {
-        window.harness.get_by_label("Place sweep").scroll_to_me();
-        window.steps(3);
-        window.click("Place sweep");
-    };
-    take(&mut window);
+    window.take_sweep();
     let from = window.picture_center();
     window.drag(from, vec2(90.0, -40.0));
-    let patience = clock() + 60.0;
-    while clock() < patience && window.harness.query_by_label("Cancel placing").is_some() {
-        window.steps(1);
-    }
+    let template = window.wait_for_sweep();
     let document = window.document();
-    let [template] = document.illustration().templates.as_slice() else {
-        panic!("one gesture is one template: {}", document.to_json())
-    };
-    let fabrica::document::TemplateData::Tools(held) = &template.data else {
-        panic!("a sweep: {template:?}")
-    };
-    assert_eq!(held.tools.len(), 1);
-    let path = &held.tools[0].path;
+    let count = document.illustration().templates.len();
+    assert_eq!(count, 1, "one gesture is one template");
+    let path = &swept_tool(&template).path;
     assert!((2..8).contains(&path.len()), "few keys: {path:?}");
     // Its ends lie where the hand was.
     for (key, name) in [
@@ -440,7 +426,7 @@ fn a_sweep_is_drawn_on_the_object() {
     );
     // A click without a way presses, as before; beside the object a drag draws nothing.
     let height = window.harness.get_by_role(Role::Image).rect().height();
-    take(&mut window);
+    window.take_sweep();
     window.drag(from - vec2(0.0, 0.46 * height), vec2(60.0, 0.0));
     window.settle();
     assert!(window.document().illustration().templates.is_empty());
@@ -451,6 +437,95 @@ fn a_sweep_is_drawn_on_the_object() {
     window.click_at(from);
     window.settle();
     assert_eq!(window.document().illustration().templates.len(), 1);
+}
+
+impl Window {
+    /// Takes the tool in hand that draws a sweep.
+    fn take_sweep(&mut self) {
+        // It may stand below the end of what is seen of the catalogue.
+        self.harness.get_by_label("Place sweep").scroll_to_me();
+        self.steps(3);
+        self.click("Place sweep");
+    }
+
+    /// Chooses an entry of a list that stands in the bar over the picture.
+    fn choose(&mut self, list: &str, entry: &str) {
+        let lists = self.harness.get_by_role_and_label(Role::ComboBox, list);
+        lists.click();
+        self.steps(3);
+        self.harness.get_by_label(entry).click();
+        self.steps(3);
+    }
+
+    /// Waits until a drag has become a sweep, which puts the tool away, and gives the last sweep.
+    fn wait_for_sweep(&mut self) -> fabrica::document::PlacedTemplate {
+        let patience = clock() + 60.0;
+        while clock() < patience && self.harness.query_by_label("Cancel placing").is_some() {
+            self.steps(1);
+        }
+        let document = self.document();
+        let templates = &document.illustration().templates;
+        templates.last().cloned().expect("a sweep")
+    }
+}
+
+/// The only tool of a sweep.
+fn swept_tool(template: &fabrica::document::PlacedTemplate) -> &fabrica::document::SweepTool {
+    let fabrica::document::TemplateData::Tools(held) = &template.data else {
+        panic!("a sweep: {template:?}")
+    };
+    &held.tools[0]
+}
+
+#[test]
+fn a_sweep_is_drawn_by_any_form_in_any_way() {
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#,
+    );
+    window.take_sweep();
+    window.look("sweep_in_hand");
+    window.choose("Form of the tool", "Block");
+    window.choose("What a drag does", "Push, pull");
+    let middle = window.picture_center();
+    window.harness.hover_at(middle);
+    window.settle();
+    window.look("sweep_over_the_object");
+    window.drag(middle, vec2(0.0, -70.0));
+    let template = window.wait_for_sweep();
+    let tool = swept_tool(&template);
+    assert_eq!(tool.shape.as_ref().map(|shape| shape.name()), Some("box"));
+    // The front of the cube is seen: what is pulled comes to the viewer.
+    let ends =
+        [&tool.path[0], &tool.path[1]].map(|key| template.placement.subject_from_template(key.at));
+    let gone = ends[1] - ends[0];
+    let back = window.document().illustration().camera.rotate * glam::Vec3::Y;
+    let pulled = gone.dot(back);
+    assert!(
+        pulled > 0.1 && gone.distance(pulled * back) < 0.01,
+        "{gone} along {back}"
+    );
+    window.look("sweep_pulled");
+    // A curve that is drawn is a tool, and changes nothing by itself.
+    window.take_sweep();
+    window.choose("Form of the tool", "Draw the form…");
+    let before = window.document().to_json();
+    window.drag(middle - vec2(60.0, 30.0), vec2(120.0, 60.0));
+    window.settle();
+    assert_eq!(window.document().to_json(), before);
+    window.choose("What a drag does", "Move");
+    window.harness.hover_at(middle);
+    window.settle();
+    window.look("sweep_form_in_hand");
+    window.drag(middle, vec2(0.0, 60.0));
+    let template = window.wait_for_sweep();
+    let shape = swept_tool(&template).shape.clone();
+    assert!(shape.is_some_and(|shape| shape.points().len() >= 2));
+    window.look("sweep_by_a_drawn_form");
+    for _ in 0..2 {
+        window.undo();
+    }
+    assert!(window.document().illustration().templates.is_empty());
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use egui::{Key, Pos2, Ui};
 
 use super::projection::ZOOM_PER_POINT;
-use crate::app::session::ClayHand;
+use crate::app::session::HeldTool;
 
 /// Degrees that the tool turns per point.
 const DEGREES_PER_POINT: f32 = 0.5;
@@ -48,7 +48,7 @@ impl Fits {
 #[derive(Debug)]
 pub(crate) struct Fitting {
     pub(crate) fits: Fits,
-    before: ClayHand,
+    before: HeldTool,
     /// Where the pointer was, points of the window.
     from: Pos2,
     /// How far the wheel has turned, points.
@@ -56,7 +56,7 @@ pub(crate) struct Fitting {
 }
 
 impl Fitting {
-    pub(crate) fn new(fits: Fits, before: &ClayHand, from: Pos2) -> Self {
+    pub(crate) fn new(fits: Fits, before: &HeldTool, from: Pos2) -> Self {
         Self {
             fits,
             before: before.clone(),
@@ -72,7 +72,7 @@ impl Fitting {
 
     /// The tool with the pointer here. To the right a length grows by as much as the pointer goes, which is seen in so
     /// many points per subject unit.
-    pub(crate) fn fitted(&self, pos: Pos2, points_per_unit: f32) -> ClayHand {
+    pub(crate) fn fitted(&self, pos: Pos2, points_per_unit: f32) -> HeldTool {
         let way = pos.x - self.from.x;
         let grown =
             |length: f32| (length + way / points_per_unit) * (ZOOM_PER_POINT * self.wheel).exp();
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn the_pointer_and_the_wheel_fit_the_tool() {
-        let before = ClayHand::default();
+        let before = HeldTool::default();
         let from = pos2(100.0, 50.0);
         let fitted = |fits, by: f32, wheel: f32| {
             let mut fitting = Fitting::new(fits, &before, from);
@@ -114,7 +114,7 @@ mod tests {
         assert!((coated.coat - 0.05).abs() < 1e-6 && coated.size == before.size);
         assert!(fitted(Fits::Size, 0.0, 50.0).size > before.size);
         assert!(fitted(Fits::Size, 0.0, -50.0).size < before.size);
-        let [sizes, coats] = ClayHand::RANGES;
+        let [sizes, coats] = HeldTool::RANGES;
         assert_eq!(fitted(Fits::Size, -900.0, 0.0).size, sizes[0]);
         assert_eq!(fitted(Fits::Coat, 900.0, 0.0).coat, coats[1]);
         assert_eq!(fitted(Fits::Turn, 60.0, 0.0).turn_deg, 30.0);

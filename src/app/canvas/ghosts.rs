@@ -15,10 +15,10 @@ use crate::math::Similarity;
 /// The ghosts. Delete on a key takes all of its ghost back.
 pub(crate) fn ui(ui: &Ui, view: &Projection, session: &Session, commands: &mut Vec<Command>) {
     let painter = ui.painter_at(view.rect);
-    let mirror = session.clay_hand.mirror;
+    let mirror = session.hand().mirror;
     if let Some(Pose { at, turn, .. }) = session.laid() {
         let pose = Similarity::new(1.0, turn.as_dquat(), at.as_dvec3());
-        let outline = placed_outline(&session.clay_hand.shape(), pose);
+        let outline = placed_outline(&session.hand().shape(), pose);
         paint_outline(&painter, view, &outline, mirror, ink::HOT);
     }
     let last = session.together.ghosts.len().wrapping_sub(1);

@@ -5,7 +5,6 @@ pub(crate) mod ball;
 pub(crate) mod caption_layout;
 pub(crate) mod captions;
 pub(crate) mod curve;
-pub(crate) mod drawn;
 pub(crate) mod figure;
 pub(crate) mod fitting;
 pub(crate) mod foot;

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
-use crate::app::session::ClayHand;
+use crate::app::session::HeldTool;
 use crate::displace::images_of;
 use crate::document::ToolShape;
 use crate::math::Similarity;
@@ -42,13 +42,8 @@ pub(super) fn seen(view: &Projection, line: &[Vec3], image: Vec3) -> Option<Vec<
     spots.collect()
 }
 
-/// Sides of the box around a tool of this form whose size is 1.
-pub(super) fn sides_of_tool(form: usize) -> Vec3 {
-    let hand = ClayHand {
-        form,
-        size: 1.0,
-        ..ClayHand::default()
-    };
+/// Sides of the box around the tool in a hand, subject units.
+pub(super) fn sides_of_tool(hand: &HeldTool) -> Vec3 {
     let lines = hand.shape().outline().into_iter().flatten();
     2.0 * lines.fold(Vec3::ZERO, |far, p| far.max(p.abs()))
 }

@@ -1,10 +1,9 @@
-//! The hand that shapes a clay over the picture: the tool where it would act and as held keys fit it, the drag under
-//! way, and the bar that holds the tool.
+//! The hand that shapes a clay or draws a sweep over the picture: the tool where it would act and as held keys fit it,
+//! the drag under way, and the bar that holds the tool.
 
 use egui::{CursorIcon, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use glam::{Quat, Vec3};
 
-use super::drawn::{STEP, is_plain};
 use super::fitting::{Fits, Fitting};
 use super::outline::{images, paint_outline, placed_outline, seen};
 use super::pen::Pen;
@@ -13,18 +12,20 @@ use super::tools::{gizmo_name, head_bar};
 use super::ways::paint_way;
 use crate::app::kit::clay_tool::{form_title, held_title, own_title, way_title};
 use crate::app::kit::icon::Icon;
-use crate::app::kit::theme::{self, over_picture as ink};
+use crate::app::kit::theme::{self, Palette, over_picture as ink};
 use crate::app::kit::widget::{self, Named as _};
 use crate::app::picture::host::Picture;
 use crate::app::session::{
-    ClayCommand, ClayHand, Command, GizmoMode, Session, StrokeWay, Tool, Touch,
+    ClayCommand, Command, GizmoMode, HandCommand, HeldTool, Session, StrokeWay, Touch,
 };
 use crate::app::words::clay::w;
-use crate::app::words::{fill, picture};
-use crate::document::ToolShape;
+use crate::app::words::{fill, picture, sweep};
+use crate::document::{TemplateData, ToolShape};
 use crate::math::Similarity;
 use crate::render::{PendingPick, Pick};
 
+/// Points by which a hand moves at least from one place of its way to the next.
+const STEP: f32 = 3.0;
 /// Width of the bar, points.
 const BAR: f32 = 464.0;
 /// Below this width the bar leaves out what the panel has too.
@@ -33,14 +34,14 @@ const NARROW: f32 = 420.0;
 /// What the hand does.
 #[derive(Default)]
 enum Hand {
-    /// Nothing, or it turns the view: where the last drag began there was no clay.
+    /// Nothing, or it turns the view: where the last drag began there was nothing to move.
     #[default]
     Free,
     /// It is pressed, and what is under it is being asked for.
     Pressed(PendingPick),
     /// The picture could not be asked yet.
     Waits,
-    /// It draws, with the clay that it has touched so far.
+    /// It draws, with the places that it has touched so far.
     Draws(Vec<Touch>),
     /// It is pressed and does nothing until it lets go: the tool was being fitted, or it is a palm.
     Rests,
@@ -70,7 +71,7 @@ pub(crate) struct ShapingHand {
     fitting: Option<Fitting>,
     /// The wheel that turned for this has not come to rest yet.
     is_wheel_turning: bool,
-    /// The clay under the pointer, on its way, where the pointer was when it was asked for, and the last answer.
+    /// What is under the pointer, on its way, where the pointer was when it was asked for, and the last answer.
     pick: Option<PendingPick>,
     asked_at: Option<Pos2>,
     under: Option<Touch>,
@@ -80,7 +81,7 @@ impl ShapingHand {
     /// Hears of touches, before anything is made of them in this frame.
     pub(crate) fn hear(&mut self, ui: &Ui, session: &Session) {
         ui.input(|i| self.pen.hear(&i.events, session.now));
-        self.has_palm = session.tool() == Tool::Clay && self.pen.has_palm(session.now);
+        self.has_palm = session.has_hand() && self.pen.has_palm(session.now);
     }
 
     /// True if touches are no gesture of two fingers: one of them is a palm beside a pen.
@@ -103,12 +104,16 @@ impl ShapingHand {
     /// True if the wheel fits the tool, and zooms nothing.
     pub(crate) fn takes_wheel(&self, session: &Session, ui: &Ui) -> bool {
         let is_fitted = || self.may_fit() && Fits::held(ui).is_some();
-        session.tool() == Tool::Clay && (self.is_wheel_turning || is_fitted())
+        session.has_hand() && (self.is_wheel_turning || is_fitted())
     }
 
     /// One finger, a pen or the first button, alone: a palm does not count.
     fn is_plain(&self, ui: &Ui) -> bool {
-        is_plain(ui) || self.has_palm
+        let is_alone = ui.input(|i| {
+            let pointer = &i.pointer;
+            !pointer.secondary_down() && !pointer.middle_down() && i.multi_touch().is_none()
+        });
+        is_alone || self.has_palm
     }
 
     /// True if no stroke is under way.
@@ -130,7 +135,7 @@ impl ShapingHand {
         (picture, size): (&mut Picture, [u32; 2]),
         commands: &mut Vec<Command>,
     ) {
-        if session.tool() != Tool::Clay {
+        if !session.has_hand() {
             let pen = std::mem::take(&mut self.pen);
             *self = Self {
                 pen,
@@ -155,10 +160,9 @@ impl ShapingHand {
             self.hand = Hand::Rests;
         } else if begins {
             let begin = ui.input(|i| (i.pointer.press_origin(), i.modifiers.shift));
-            self.way = match begin.1 {
-                true => StrokeWay::Smooth,
-                false => session.clay_hand.way,
-            };
+            let way = session.hand().way;
+            let smooths = begin.1 && way != StrokeWay::Form && !session.is_sweeping();
+            self.way = if smooths { StrokeWay::Smooth } else { way };
             (self.asked, self.told) = (0, None);
             (self.is_over, self.is_straight) = (false, false);
             self.force = self.pen.force();
@@ -183,7 +187,7 @@ impl ShapingHand {
         let is_far = |pos: &Pos2| last.is_none_or(|last| last.distance(*pos) >= STEP);
         self.spots.extend(here.filter(is_far));
         self.is_over |= !response.dragged_by(PointerButton::Primary);
-        self.find(|pos| ask(picture, pos), view);
+        self.find(|pos| ask(picture, pos), view, session.camera.target);
         if !matches!(self.hand, Hand::Draws(_)) {
             return;
         }
@@ -220,19 +224,19 @@ impl ShapingHand {
         };
         let is_same = |fitting: &Fitting| fitting.fits == fits;
         let fitting = self.fitting.take().filter(is_same);
-        let mut fitting = fitting.unwrap_or_else(|| Fitting::new(fits, &session.clay_hand, pos));
+        let mut fitting = fitting.unwrap_or_else(|| Fitting::new(fits, session.hand(), pos));
         fitting.scroll(wheel);
         self.is_wheel_turning = wheel != 0.0;
         let at = self.under.map_or(session.camera.target, |under| under.pos);
         let hand = fitting.fitted(pos, view.points_per_unit(at));
         self.fitting = Some(fitting);
-        if hand != session.clay_hand {
-            commands.push(Command::Clay(ClayCommand::Hold(hand)));
+        if hand != *session.hand() {
+            commands.push(held(hand));
         }
         true
     }
 
-    /// The clay under the pointer while nothing is drawn.
+    /// What is under the pointer while nothing is drawn.
     fn hover(&mut self, response: &Response, ask: impl FnOnce(Pos2) -> Option<PendingPick>) {
         let pos = response.hover_pos();
         if pos.is_none() {
@@ -247,8 +251,14 @@ impl ShapingHand {
         }
     }
 
-    /// Finds the clay where the drag began; a drag that began beside it turns the view.
-    fn find(&mut self, ask: impl FnOnce(Pos2) -> Option<PendingPick>, view: &Projection) {
+    /// Finds what is seen where the drag began; a drag that began beside it turns the view. `middle` is what the camera
+    /// looks at.
+    fn find(
+        &mut self,
+        ask: impl FnOnce(Pos2) -> Option<PendingPick>,
+        view: &Projection,
+        middle: Vec3,
+    ) {
         match &mut self.hand {
             Hand::Waits => {
                 // Another question may be open; then this one is asked in the next frame.
@@ -261,7 +271,18 @@ impl ShapingHand {
                     return;
                 };
                 let found = answer.ok().flatten();
-                self.hand = match found.and_then(|pick| touch(&pick, view)) {
+                let under = found.and_then(|pick| touch(&pick, view));
+                // The form of a tool may be drawn beside it all.
+                let beside = || {
+                    let pos = view.on_plane(*self.spots.first()?, middle, view.back())?;
+                    Some(Touch {
+                        pos,
+                        normal: view.back(),
+                        force: None,
+                    })
+                };
+                let is_form = self.way == StrokeWay::Form;
+                self.hand = match under.or_else(|| beside().filter(|_| is_form)) {
                     Some(first) => {
                         self.asked = 1;
                         let force = self.force;
@@ -278,7 +299,7 @@ impl ShapingHand {
         }
     }
 
-    /// Takes the clay that was found under the hand into its way.
+    /// Takes the place that was found under the hand into its way.
     fn follow(&mut self) {
         if let (Hand::Draws(touches), Some(under)) = (&mut self.hand, self.under)
             && self.way.follows_surface()
@@ -331,7 +352,7 @@ impl ShapingHand {
             return;
         }
         self.told = told;
-        commands.push(Command::Clay(ClayCommand::Draw {
+        commands.push(Command::Hand(HandCommand::Draw {
             way: self.way,
             touches: touches.clone(),
             is_over,
@@ -356,7 +377,10 @@ impl ShapingHand {
             return;
         };
         ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
-        let hand = &session.clay_hand;
+        let hand = session.hand();
+        if hand.way == StrokeWay::Form {
+            return;
+        }
         let (middle, turn) = hand.pose(&at);
         let placed = Similarity::new(1.0, turn.as_dquat(), middle.as_dvec3());
         let outline = placed_outline(&hand.shape(), placed);
@@ -371,10 +395,10 @@ impl ShapingHand {
 
 /// True if drags are strokes: they are not where a tool is laid down.
 fn draws(session: &Session) -> bool {
-    session.tool() == Tool::Clay && session.clay_hand.way != StrokeWay::Place
+    session.has_hand() && session.hand().way != StrokeWay::Place
 }
 
-/// The place of the clay that was found, if the clay was.
+/// The place that was found, if it is not one of an object.
 fn touch(pick: &Pick, view: &Projection) -> Option<Touch> {
     let normal = pick.normal.normalize_or(view.back());
     pick.object.is_none().then_some(Touch {
@@ -402,17 +426,32 @@ fn ring(view: &Projection, middle: Vec3, radius: f32) -> Vec<Vec3> {
     (0..=48).map(corner).collect()
 }
 
-/// The meshes and baked clays among the tools of the clay, each once.
+/// The drawn curves, meshes and baked clays among the tools of the clay or of the sweeps, each once, and what is held.
 fn own_shapes(session: &Session) -> Vec<&ToolShape> {
-    let tools = session.clay().into_iter().flat_map(|clay| &clay.tools);
-    let mut own: Vec<&ToolShape> = Vec::new();
-    for shape in tools.filter_map(|tool| tool.shape.as_ref()) {
-        let is_plain = ToolShape::NAMES.contains(&shape.name());
-        if !is_plain && !own.iter().any(|known| known.is_like(shape)) {
-            own.push(shape);
+    let own: Box<dyn Iterator<Item = &ToolShape>> = if session.is_sweeping() {
+        Box::new(swept_shapes(session))
+    } else {
+        let tools = session.clay().into_iter().flat_map(|clay| &clay.tools);
+        Box::new(tools.filter_map(|tool| tool.shape.as_ref()))
+    };
+    let mut shapes: Vec<&ToolShape> = Vec::new();
+    for shape in own.chain(&session.hand().own) {
+        let is_known = |known: &&ToolShape| known.has_form_of(shape);
+        if !HeldTool::has_plain_form(shape) && !shapes.iter().any(is_known) {
+            shapes.push(shape);
         }
     }
-    own
+    shapes
+}
+
+/// The shapes of the tools of all sweeps that are shown.
+fn swept_shapes(session: &Session) -> impl Iterator<Item = &ToolShape> {
+    let templates = session.shown().templates.iter();
+    let tools = templates.filter_map(|template| match &template.data {
+        TemplateData::Tools(held) => Some(&held.tools),
+        _ => None,
+    });
+    tools.flatten().filter_map(|tool| tool.shape.as_ref())
 }
 
 /// Over the picture while the tool is in hand: what a drag does, form and size of the tool, the mirror across x, and
@@ -420,7 +459,7 @@ fn own_shapes(session: &Session) -> Vec<&ToolShape> {
 pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
     let (mut inner, width) = head_bar(ui, rect, BAR, "clay");
     let ui = &mut inner;
-    let hand = &session.clay_hand;
+    let hand = session.hand();
     let side = theme::control_height();
     let is_wide = width >= NARROW;
     let buttons = if is_wide { 5.0 } else { 4.0 };
@@ -428,18 +467,26 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
     let (way_width, form_width) = (0.56 * room, 0.44 * room);
     let shown = widget::combo("way of strokes", way_title(hand.way).0, way_width);
     let shown = shown.show_ui(ui, |ui| {
-        for way in StrokeWay::ALL {
+        let ways = match session.is_sweeping() {
+            true => StrokeWay::OF_SWEEPS.iter(),
+            false => StrokeWay::OF_CLAYS.iter(),
+        };
+        for &way in ways {
             let (title, hint) = way_title(way);
             let label = ui.selectable_label(way == hand.way, title);
             if label.on_hover_text(hint).clicked() {
-                commands.push(held(ClayHand {
+                commands.push(held(HeldTool {
                     way,
                     ..hand.clone()
                 }));
             }
         }
     });
-    let hint = format!("{}\n{}", way_title(hand.way).1, w().drag);
+    let drag = match session.is_sweeping() {
+        true => sweep::w().click_or_draw,
+        false => w().drag,
+    };
+    let hint = format!("{}\n{drag}", way_title(hand.way).1);
     shown.response.named(w().way).on_hover_text(hint);
     if session.laid().is_some() {
         handles_ui(ui, session.gizmo, form_width, commands);
@@ -455,7 +502,7 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
             .on_hover_text(w().mirror_hint)
             .clicked()
     {
-        commands.push(held(ClayHand {
+        commands.push(held(HeldTool {
             mirror: [!x, y, z],
             ..hand.clone()
         }));
@@ -464,22 +511,22 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
 }
 
 /// Takes another tool in hand.
-fn held(hand: ClayHand) -> Command {
-    Command::Clay(ClayCommand::Hold(hand))
+fn held(hand: HeldTool) -> Command {
+    Command::Hand(HandCommand::Hold(hand))
 }
 
 /// The form of the tool.
 fn form_ui(ui: &mut Ui, session: &Session, form_width: f32, commands: &mut Vec<Command>) {
-    let hand = &session.clay_hand;
+    let hand = session.hand();
     let shown = widget::combo("form of strokes", &held_title(hand), form_width);
     let shown = shown.show_ui(ui, |ui| {
-        let forms = (0..ClayHand::FORMS.len()).map(|form| (form, None));
+        let forms = (0..HeldTool::FORMS.len()).map(|form| (form, None));
         let own = own_shapes(session).into_iter();
         let own = own.map(|shape| (hand.form, Some(shape)));
         for (form, own) in forms.chain(own) {
             let is_held = match (own, &hand.own) {
                 (None, None) => form == hand.form,
-                (Some(one), Some(held)) => held.is_like(one),
+                (Some(one), Some(held)) => held.has_form_of(one),
                 _ => false,
             };
             let title = match own {
@@ -487,12 +534,20 @@ fn form_ui(ui: &mut Ui, session: &Session, form_width: f32, commands: &mut Vec<C
                 Some(shape) => own_title(shape),
             };
             if ui.selectable_label(is_held, title).clicked() {
-                commands.push(held(ClayHand {
+                commands.push(held(HeldTool {
                     form,
                     own: own.cloned(),
                     ..hand.clone()
                 }));
             }
+        }
+        let draws = hand.way == StrokeWay::Form;
+        let label = ui.selectable_label(draws, w().draw_form);
+        if label.on_hover_text(w().draw_form_hint).clicked() {
+            commands.push(held(HeldTool {
+                way: StrokeWay::Form,
+                ..hand.clone()
+            }));
         }
     });
     shown.response.named(w().form).on_hover_text(w().form);
@@ -514,8 +569,45 @@ fn handles_ui(ui: &mut Ui, current: GizmoMode, width: f32, commands: &mut Vec<Co
     shown.response.named(picture::w().handles);
 }
 
+/// At the head of what is free of the picture: what a click and a drag do.
+pub(crate) fn what_to_do_ui(ui: &Ui, free: Rect) {
+    let words = sweep::w();
+    let text = match theme::is_touch() {
+        true => words.tap_or_draw,
+        false => words.click_or_draw,
+    };
+    let palette = Palette::get(ui);
+    let painter = ui.painter();
+    let font = theme::strong_font(12.5);
+    let galley = painter.layout(text.to_owned(), font, palette.text, free.width() - 40.0);
+    let left = free.center().x - 0.5 * galley.size().x;
+    let place = pos2(left, free.top() + 26.0);
+    let behind = Rect::from_min_size(place, galley.size()).expand2(vec2(10.0, 4.0));
+    painter.rect_filled(behind, 6.0, palette.panel.gamma_multiply(0.85));
+    painter.galley(place, galley, palette.text);
+}
+
+/// The buttons at the end of the bar while a sweep is drawn.
+fn sweep_buttons_ui(ui: &mut Ui, commands: &mut Vec<Command>) {
+    let words = picture::w();
+    let buttons = [
+        (Icon::Down, w().smaller, Command::NudgeMain(-1.0)),
+        (Icon::Up, w().larger, Command::NudgeMain(1.0)),
+        (Icon::Check, words.in_the_middle, Command::PlaceInMiddle),
+        (Icon::Close, words.cancel_placing, Command::Escape),
+    ];
+    for (icon, name, command) in buttons {
+        if widget::icon_button(ui, icon, name, true).clicked() {
+            commands.push(command);
+        }
+    }
+}
+
 /// The buttons at the end of the bar. What is laid down is done and taken back where else the tool is sized.
 fn buttons_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    if session.is_sweeping() {
+        return sweep_buttons_ui(ui, commands);
+    }
     let together = &session.together;
     let act = Command::Clay(ClayCommand::Act);
     let take_back = (Icon::Undo, w().take_back, Command::DeleteSelected, true);
@@ -534,13 +626,13 @@ fn buttons_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         }
     }
     let side = theme::control_height();
-    let hand = &session.clay_hand;
+    let hand = session.hand();
     if session.laid().is_some() {
         let toggle =
             widget::icon_button_sized(ui, Icon::Brush, w().acts_hint, true, hand.acts, side);
         if toggle.accessible_name(w().acts).clicked() {
             let acts = !hand.acts;
-            let hand = ClayHand {
+            let hand = HeldTool {
                 acts,
                 ..hand.clone()
             };

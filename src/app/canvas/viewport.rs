@@ -9,7 +9,6 @@ use glam::Vec3;
 
 use super::ball::{self, PictureBall};
 use super::captions::Followed;
-use super::drawn::DrawnWay;
 use super::figure::FigureCanvas;
 use super::ghosts;
 use super::gizmo::Gizmo;
@@ -27,7 +26,7 @@ use crate::app::services::TextOver;
 use crate::app::session::camera;
 use crate::app::session::{Command, Gravity, Place, Question, Selection, Session, Tool};
 use crate::app::words::picture::w;
-use crate::app::words::{self, fill, in_sentence, kinds, messages, names, sweep};
+use crate::app::words::{self, fill, in_sentence, kinds, messages, names};
 use crate::displace::Holds;
 use crate::document::{Background, Camera, PlacedTemplate, TemplateKind};
 use crate::math::Placement;
@@ -74,7 +73,6 @@ pub(crate) struct Viewport {
     captions: Followed,
     ball: PictureBall,
     figure: FigureCanvas,
-    drawn: DrawnWay,
     shaping: ShapingHand,
     /// The picture still shows another object than the document's, and is drawn faintly.
     pub(crate) is_earlier: bool,
@@ -131,7 +129,6 @@ impl Viewport {
             || self.preview_pick.is_some()
             || self.captions.is_waiting()
             || self.ball.is_waiting()
-            || self.drawn.is_waiting()
             || self.shaping.is_waiting()
     }
 
@@ -214,14 +211,15 @@ impl Viewport {
             .ui(ui, &view, view_bar::beside(free), session, commands);
 
         match session.tool() {
+            Tool::Place(TemplateKind::Sweep) => {
+                self.gizmo.release();
+                self.shaping.paint(ui, &view, session);
+                shaping::bar_ui(ui, bars, session, commands);
+                shaping::what_to_do_ui(ui, free);
+            }
             Tool::Place(kind) => {
                 let name = in_sentence(kinds::title(kind));
-                let places = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
-                let draws = [sweep::w().tap_or_draw, sweep::w().click_or_draw].map(str::to_owned);
-                let texts = match kind {
-                    TemplateKind::Sweep => draws,
-                    _ => places,
-                };
+                let texts = [w().tap_where, w().click_where].map(|text| fill(text, &[&name]));
                 self.placing_ui(ui, bars, &view, &texts, commands);
             }
             Tool::Caption => {
@@ -356,7 +354,6 @@ impl Viewport {
     ) -> Camera {
         let mut camera = session.camera;
         let is_painting = FigureCanvas::takes_drags(session, ui)
-            || DrawnWay::takes_drags(session, ui)
             || self.shaping.takes_drags(session, ui, response)
             || session.tool().ball().is_some()
                 && ui.input(|i| !i.pointer.secondary_down() && !i.pointer.middle_down());
@@ -502,7 +499,6 @@ impl Viewport {
             .ui(ui, response, session, (picture, size), commands);
         self.questions.extend(hand);
         let hands = (response, view);
-        self.drawn.ui(ui, hands, session, (picture, size), commands);
         self.shaping
             .ui(ui, hands, session, (picture, size), commands);
         self.ask(session, camera, picture, size, commands);
@@ -551,7 +547,9 @@ impl Viewport {
     ) {
         let pixel = projection::pixels_of(response.rect, size);
         let clicked = response.interact_pointer_pos().map(&pixel);
-        if let Some(kind) = session.tool().placing() {
+        // The tool of a sweep is seen where it would act.
+        let placed = session.tool().placing().filter(|_| !session.has_hand());
+        if let Some(kind) = placed {
             if let Some(pick) = &mut self.preview_pick {
                 match pick.poll_now() {
                     Some(Ok(pick)) => {
@@ -644,7 +642,7 @@ impl Viewport {
         commands: &mut Vec<Command>,
     ) {
         self.gizmo.release();
-        if let Some(preview) = self.preview.as_ref().filter(|_| !self.drawn.is_drawing()) {
+        if let Some(preview) = &self.preview {
             paint_preview(ui, view.rect, view, preview);
         }
         asking_ui(

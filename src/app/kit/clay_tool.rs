@@ -1,6 +1,6 @@
 //! What the tool that shapes a clay is called, in the panel and over the picture.
 
-use crate::app::session::{ClayHand, StrokeWay};
+use crate::app::session::{HeldTool, StrokeWay};
 use crate::app::words::clay::w;
 use crate::app::words::names;
 use crate::document::ToolShape;
@@ -16,18 +16,19 @@ pub(crate) fn way_title(way: StrokeWay) -> (&'static str, &'static str) {
         StrokeWay::Grow => (w.grow, w.grow_hint),
         StrokeWay::Smooth => (w.smooth, w.smooth_hint),
         StrokeWay::Place => (w.place, w.place_hint),
+        StrokeWay::Form => (w.draw_form, w.draw_form_hint),
     }
 }
 
 /// What the form in the hand is called.
-pub(crate) fn held_title(hand: &ClayHand) -> String {
+pub(crate) fn held_title(hand: &HeldTool) -> String {
     match &hand.own {
         Some(own) => own_title(own),
         None => form_title(hand.form).to_owned(),
     }
 }
 
-/// What a mesh is called, or the clay after some of its strokes, as a tool.
+/// What a drawn curve is called, a mesh, or the clay after some of its strokes, as a tool.
 pub(crate) fn own_title(shape: &ToolShape) -> String {
     let kind = names::tool_shape(shape);
     match shape {
@@ -39,12 +40,13 @@ pub(crate) fn own_title(shape: &ToolShape) -> String {
                 .unwrap_or_else(|| kind.to_owned())
         }
         ToolShape::Clay { strokes, .. } => format!("{kind} ({strokes})"),
+        ToolShape::Curve { points, .. } => format!("{kind} ({})", points.len()),
         _ => kind.to_owned(),
     }
 }
 
-/// What the form of this index in [`ClayHand::FORMS`] is called.
+/// What the form of this index in [`HeldTool::FORMS`] is called.
 pub(crate) fn form_title(form: usize) -> &'static str {
-    let name = ClayHand::FORMS.get(form).copied().unwrap_or_default();
+    let name = HeldTool::FORMS.get(form).copied().unwrap_or_default();
     ToolShape::named(name).map_or("", |shape| names::tool_shape(&shape))
 }

@@ -3,11 +3,12 @@
 use egui::{Label, RichText, Ui};
 use serde_json::json;
 
+use super::hand;
 use crate::app::kit::entry::EntryRow;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::Palette;
-use crate::app::kit::widget::{self, Named as _, NumberRow};
-use crate::app::session::{ClayCommand, ClayHand, Command, Session, Tool};
+use crate::app::kit::widget::{self, NumberRow};
+use crate::app::session::{ClayCommand, Command, Session, Tool};
 use crate::app::words::clay::w;
 use crate::app::words::{fill, names};
 use crate::document::{Clay, ClayStroke, Edit};
@@ -24,7 +25,8 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let is_held = session.tool() == Tool::Clay;
     // While the tool is in hand the bar over the picture puts it away.
     if is_held {
-        hand_ui(ui, &session.clay_hand, commands);
+        hand::ui(ui, session.hand(), commands);
+        bake_ui(ui, commands);
     } else if widget::labelled_button(ui, Icon::Brush, w().shape, true, true).clicked() {
         commands.push(Command::Clay(ClayCommand::Toggle));
     }
@@ -39,56 +41,7 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     widget::divider(ui);
 }
 
-/// The tool in the hand; the bar over the picture has its way and its form.
-fn hand_ui(ui: &mut Ui, hand: &ClayHand, commands: &mut Vec<Command>) {
-    let mut new = hand.clone();
-    let [sizes, coats] = ClayHand::RANGES;
-    let rows = [
-        (w().size, w().size_hint, &mut new.size, sizes),
-        (w().coat, w().coat_hint, &mut new.coat, coats),
-    ];
-    for (name, summary, value, range) in rows {
-        let row = NumberRow {
-            name,
-            summary,
-            value: f64::from(*value),
-            default: Some(0.1),
-            range: range.map(f64::from),
-            unit: "",
-            decimals: 3,
-        };
-        if let Some(change) = row.ui_logarithmic(ui) {
-            *value = *change.value() as f32;
-        }
-    }
-    let whole = |(name, summary), value: f32, most: f64, unit| NumberRow {
-        name,
-        summary,
-        value: f64::from(value),
-        default: Some(0.0),
-        range: [-most, most],
-        unit,
-        decimals: 0,
-    };
-    let depth = whole((w().depth, w().depth_hint), hand.depth * 100.0, 100.0, " %");
-    if let Some(change) = depth.ui(ui) {
-        new.depth = *change.value() as f32 / 100.0;
-    }
-    let turn = whole((w().angle, w().angle_hint), hand.turn_deg, 180.0, "°");
-    if let Some(change) = turn.ui(ui) {
-        new.turn_deg = *change.value() as f32;
-    }
-    widget::row(ui, |ui| {
-        widget::row_label(ui, w().mirrors, w().mirror_hint);
-        for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
-            let named = fill(w().mirror, &[&name.to_lowercase()]);
-            let response = ui.checkbox(&mut new.mirror[axis], name).named(&named);
-            response.on_hover_text(w().mirror_hint);
-        }
-    });
-    if new != *hand {
-        commands.push(Command::Clay(ClayCommand::Hold(new)));
-    }
+fn bake_ui(ui: &mut Ui, commands: &mut Vec<Command>) {
     let bake = widget::labelled_button(ui, Icon::Copy, w().bake, false, true);
     if bake.on_hover_text(w().bake_hint).clicked() {
         commands.push(Command::Clay(ClayCommand::Bake));

@@ -10,6 +10,7 @@ pub(crate) mod curve;
 pub(crate) mod dropped;
 pub(crate) mod figure;
 pub(crate) mod frames;
+pub(crate) mod hand;
 pub(crate) mod kept;
 pub(crate) mod keys;
 pub(crate) mod library;

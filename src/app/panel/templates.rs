@@ -2,7 +2,7 @@
 
 use egui::{DragAndDrop, Label, Rect, Stroke, Ui, vec2};
 
-use super::{carve, clay, curve, figure, kept, objects, points, sweep};
+use super::{carve, clay, curve, figure, hand, kept, objects, points, sweep};
 use crate::app::kit::entry::{self, EntryRow, rotation_row, vec3};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::template_menu;
@@ -30,6 +30,11 @@ pub(crate) fn ui(
         return figure::ui(ui, session, commands);
     }
     clay::ui(ui, session, commands);
+    if session.is_sweeping() {
+        widget::heading(ui, words::sweep::w().in_hand, |_| {});
+        hand::ui(ui, session.hand(), commands);
+        widget::divider(ui);
+    }
     list_ui(ui, session, commands);
     let has_objects = session.object_count() > 0;
     if has_objects {

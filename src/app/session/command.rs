@@ -7,6 +7,7 @@ use super::clay::ClayCommand;
 use super::figure::FigureCommand;
 use super::files::RawCommand;
 use super::found::Found;
+use super::hand::HandCommand;
 use super::library::LibraryCommand;
 use super::mesh_use::MeshUse;
 use super::notices::Gravity;
@@ -53,13 +54,8 @@ pub enum Command {
         /// Out of the object, any length but zero.
         normal: Vec3,
     },
-    /// Draws a sweep, as far as the hand has come.
-    DrawSweep {
-        /// Where the hand was, subject space.
-        way: Vec<Vec3>,
-        /// The hand has let go.
-        is_over: bool,
-    },
+    /// Does something with the tool in hand: it shapes the clay, or draws a sweep.
+    Hand(HandCommand),
     /// Fastens a caption to the tissue that was found.
     CaptionOn(Option<Found>),
     /// Adds a seed to the recipe that is being seeded.

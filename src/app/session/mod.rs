@@ -38,7 +38,9 @@ mod effect;
 pub mod figure;
 mod files;
 mod found;
+mod gesture;
 mod grouping;
+mod hand;
 mod lending;
 mod library;
 mod line;
@@ -87,12 +89,14 @@ mod recording_tests;
 mod tests;
 
 pub use self::camera::StandardView;
-pub use self::clay::{ClayCommand, ClayHand, Ghost, Pose, StrokeWay, Together, Touch};
+pub use self::clay::{ClayCommand, Ghost, Pose, Together};
 pub use self::clipboard::{Clipboard, Copied};
 pub use self::command::{Command, GizmoMode, PicturePaper, StepCommand};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
 pub use self::files::{FileChoice, Fit, RawCommand, RawDraft};
 pub use self::found::Found;
+pub use self::gesture::curve;
+pub use self::hand::{HandCommand, HeldTool, StrokeWay, Touch};
 pub use self::library::{
     Example, Library, LibraryCommand, LibraryPage, Listing, Recent, RecentChange, STORED_RECENT,
     Shipped, changed_recent,
@@ -106,7 +110,7 @@ pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::selection::Selection;
 pub use self::session::{Load, LoadOf, MeshQuestion, STORED_DOCUMENT, Session, Tab};
-pub use self::shaping::{curve, with_key_at, without_key};
+pub use self::shaping::{with_key_at, without_key};
 pub use self::small_picture::{
     STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,
 };

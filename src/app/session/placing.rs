@@ -4,13 +4,14 @@
 use glam::{Quat, Vec2, Vec3};
 
 use super::camera;
-use super::clay::{ClayCommand, ClayHand, Ghost, Laid, Pose, StrokeWay, Touch};
+use super::clay::{ClayCommand, Ghost, Laid, Pose};
 use super::command::{Command, GizmoMode};
 use super::found::Found;
+use super::gesture::{PERCENT, degrees, thousandths};
+use super::hand::{HeldTool, StrokeWay, Touch};
 use super::question::{Place, Question};
 use super::session::Session;
 use super::shape::seen_across;
-use super::shaping::{PERCENT, degrees, thousandths};
 use crate::document::{Clay, ClayKey, ClayMove, ClayStroke};
 
 /// How far an arrow key moves the tool, as a part of the picture, and how far it turns it, degrees.
@@ -34,7 +35,7 @@ impl Session {
     }
 
     /// Takes a tool in hand, in place of the one before. One that is laid down and has not moved becomes like it.
-    pub(super) fn hold_clay_tool(&mut self, hand: ClayHand) {
+    pub(super) fn hold_clay_tool(&mut self, hand: HeldTool) {
         self.clay_hand = hand;
         if self.clay_hand.way != StrokeWay::Place {
             self.laid = None;
@@ -157,15 +158,15 @@ impl Session {
                 let by = TURN_DEG.to_radians() * (step.x * up - step.y * right);
                 pose.turn = (Quat::from_scaled_axis(by) * pose.turn).normalize();
             }
-            GizmoMode::Size => return self.resize_clay_tool(step.x + step.y > 0.0),
+            GizmoMode::Size => return self.resize_held_tool(step.x + step.y > 0.0),
         }
         self.put_laid(pose);
         self.end_drag();
     }
 
     /// Makes the tool larger or smaller by a step, in the hand or where it is laid down.
-    pub(super) fn resize_clay_tool(&mut self, is_larger: bool) {
-        let hand = self.clay_hand.resized(is_larger);
+    pub(super) fn resize_held_tool(&mut self, is_larger: bool) {
+        let hand = self.hand().resized(is_larger);
         match self.laid() {
             Some(pose) => {
                 self.put_laid(Pose {
@@ -174,7 +175,7 @@ impl Session {
                 });
                 self.end_drag();
             }
-            None => self.clay_hand = hand,
+            None => self.hold(hand),
         }
     }
 
@@ -207,6 +208,7 @@ fn key_after(keys: &[ClayKey], pose: &Pose, own: f32) -> ClayKey {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::session::HandCommand;
     use crate::document::{ClayShape, ClayStart, Document};
 
     fn run(session: &mut Session, command: ClayCommand) {
@@ -223,13 +225,13 @@ mod tests {
         if is_together {
             run(&mut session, ClayCommand::Together);
         }
-        let hand = ClayHand {
+        let hand = HeldTool {
             way: StrokeWay::Place,
             mirror: [false; 3],
             acts,
-            ..ClayHand::default()
+            ..HeldTool::default()
         };
-        run(&mut session, ClayCommand::Hold(hand));
+        session.run(Command::Hand(HandCommand::Hold(hand)), 0.0);
         lay(&mut session);
         session
     }
@@ -280,7 +282,7 @@ mod tests {
         session.run(Command::DeleteSelected, 0.0);
         assert_eq!(session.laid(), None);
         lay(&mut session);
-        run(&mut session, ClayCommand::Hold(ClayHand::default()));
+        session.run(Command::Hand(HandCommand::Hold(HeldTool::default())), 0.0);
         assert_eq!(session.laid(), None, "another way of the hand");
         run(&mut session, ClayCommand::LayOn(None));
         assert_eq!(session.notices.shown().count(), 1);
@@ -334,12 +336,12 @@ mod tests {
         session.run(Command::PlaceInMiddle, 0.0);
         assert!(strokes(&session).is_empty(), "nothing moves");
         lay(&mut session);
-        let hand = ClayHand {
+        let hand = HeldTool {
             acts: true,
             size: 0.2,
             ..session.clay_hand.clone()
         };
-        run(&mut session, ClayCommand::Hold(hand));
+        session.run(Command::Hand(HandCommand::Hold(hand)), 0.0);
         drag(&mut session, UP, 30.0, 0.2);
         drag(&mut session, Vec3::Z, 60.0, 0.3);
         let [first, second, third] = keys(&session, 1)[..] else {

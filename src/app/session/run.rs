@@ -69,7 +69,7 @@ impl Session {
             Command::PlaceOn(found) => self.place_on(found),
             Command::PlaceOnOrAtTarget(found) => self.place_on_or_at_target(found),
             Command::PlaceAt { pos, normal } => self.place_at(pos, normal),
-            Command::DrawSweep { way, is_over } => self.draw_sweep(&way, is_over),
+            Command::Hand(command) => self.run_hand(command),
             Command::CaptionOn(found) => self.caption_on(found),
             Command::SeedOn(found) => self.seed_on(found),
             Command::AddSeed(pos, value) => {
@@ -122,9 +122,7 @@ impl Session {
             Command::ShiftSelected(by) => self.shift_selected(by),
             // The keys are those of the ball while it is in hand.
             Command::NudgeMain(by) if self.tool().ball().is_some() => self.resize_ball(by > 0.0),
-            Command::NudgeMain(by) if self.tool() == Tool::Clay => {
-                self.resize_clay_tool(by > 0.0);
-            }
+            Command::NudgeMain(by) if self.has_hand() => self.resize_held_tool(by > 0.0),
             Command::NudgeMain(hundredths) if self.view.is_figure() => {
                 self.turn_of_figure(hundredths);
             }
@@ -245,6 +243,10 @@ impl Session {
         }
         self.drawn = None;
         let is_same = self.tool == Tool::Place(kind);
+        if kind == TemplateKind::Sweep {
+            self.ready_to_sweep();
+            self.side_tab = Tab::Templates;
+        }
         self.take_tool(if is_same {
             Tool::Look
         } else {

@@ -2,11 +2,12 @@
 //! Other files of this room add what can be done with it.
 
 use super::camera;
-use super::clay::{ClayHand, Laid, Together};
+use super::clay::{Laid, Together};
 use super::clipboard::Clipboard;
 use super::command::{GizmoMode, PicturePaper};
 use super::effect::{Effect, LinkChange};
 use super::files::{FileChoice, RawDraft};
+use super::hand::HeldTool;
 use super::library::Library;
 use super::mode::Mode;
 use super::notices::{Gravity, Notices, Offer};
@@ -22,7 +23,7 @@ use crate::data::Subject;
 use crate::data::SubjectFrame;
 use crate::document::{
     Autoplay, Camera, Document, DocumentError, Edit, History, Illustration, PlacedTemplate,
-    Reading, SubjectRef,
+    Reading, SubjectRef, TemplateKind,
 };
 use crate::link;
 
@@ -154,7 +155,9 @@ pub struct Session {
     /// The stroke of the clay that a hand is drawing.
     pub(super) drawn_stroke: Option<usize>,
     /// The tool that shapes the clay while it is in hand.
-    pub clay_hand: ClayHand,
+    pub(super) clay_hand: HeldTool,
+    /// The tool that draws sweeps, since it was first taken in hand.
+    pub(super) sweep_hand: Option<HeldTool>,
     /// The tool of the clay that is laid down.
     pub(super) laid: Option<Laid>,
     /// Strokes of the clay that are laid down.
@@ -270,7 +273,8 @@ impl Session {
             tool: Tool::default(),
             drawn: None,
             drawn_stroke: None,
-            clay_hand: ClayHand::default(),
+            clay_hand: HeldTool::default(),
+            sweep_hand: None,
             laid: None,
             together: Together::default(),
             selection: Selection::Nothing,
@@ -428,6 +432,22 @@ impl Session {
     /// The active tool; there is always exactly one.
     pub fn tool(&self) -> Tool {
         self.tool
+    }
+
+    /// True if drags over the picture move a tool that shapes the clay or draws a sweep.
+    pub fn has_hand(&self) -> bool {
+        self.tool == Tool::Clay || self.is_sweeping()
+    }
+
+    /// True if drags over the picture draw a sweep.
+    pub fn is_sweeping(&self) -> bool {
+        self.tool == Tool::Place(TemplateKind::Sweep)
+    }
+
+    /// The tool that a hand moves over the picture: that of sweeps while they are drawn, else that of the clay.
+    pub fn hand(&self) -> &HeldTool {
+        let swept = self.sweep_hand.as_ref().filter(|_| self.is_sweeping());
+        swept.unwrap_or(&self.clay_hand)
     }
 
     /// Takes a tool in hand, in place of the one before.

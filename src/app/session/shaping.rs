@@ -1,46 +1,26 @@
 //! Shaping a clay by hand: what a drag over it becomes. A gesture is one stroke of the recipe, thinned to few keys, and
 //! one step of undo.
 
-use glam::{DQuat, Quat, Vec3};
+use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-use super::camera;
-use super::clay::{ClayCommand, ClayHand, Ghost, StrokeWay, Touch};
-use super::drawing::{distance_to, thinned};
+use super::clay::{ClayCommand, Ghost};
+use super::gesture::{Gesture, degrees, form, gesture, thousandths};
+use super::hand::{HeldTool, StrokeWay, Touch};
 use super::notices::Gravity;
 use super::selection::Selection;
 use super::session::Session;
-use super::shape::seen_across;
 use super::tool::Tool;
 use crate::app::words::clay::w;
 use crate::app::words::fill;
 use crate::document::{
-    Camera, Clay, ClayKey, ClayMove, ClayStart, ClayStroke, ClayTool, ClayVolume, Edit, MeshRef,
-    Reading, SubjectRef, ToolShape, VoxelPart, VoxelSource,
+    Camera, Clay, ClayMove, ClayStart, ClayStroke, ClayTool, ClayVolume, Edit, MeshRef, Reading,
+    SubjectRef, ToolShape, VoxelPart, VoxelSource,
 };
-use crate::math::{Similarity, smooth_path};
 
 /// Where the tools and the strokes of a clay stand in a document.
 const TOOLS: &str = "/subject/clay/tools";
 const STROKES: &str = "/subject/clay/strokes";
-/// How far the path may be off the gesture: a part of the coating, and subject units (spec/sweepers.md, B.3).
-const OFF_COAT: f32 = 1.0 / 16.0;
-const OFF_LEAST: f32 = 0.002;
-/// A tool that pushes begins outside by so much of its size; one that pulls begins inside by so much.
-const OUTSIDE: f32 = 1.0;
-const INSIDE: f32 = 0.5;
-/// Degrees by which a tool turns while the hand crosses the picture, and most degrees of one key.
-const TURN: f32 = 360.0;
-const TURN_OF_KEY: f32 = 120.0;
-/// A tool grows to the double while the hand crosses this part of the picture.
-const DOUBLES: f32 = 0.25;
-/// Sizes of keys, per cent.
-pub(super) const PERCENT: [f32; 2] = [5.0, 2000.0];
-/// Longest turn of a key, degrees; rounding its parts may add one.
-const LONGEST_TURN: f32 = 178.0;
-/// Farthest place of a key, subject units.
-const FARTHEST: f32 = 4.0;
-
 impl Session {
     /// The clay of the document, if its subject is one.
     pub fn clay(&self) -> Option<&Arc<Clay>> {
@@ -72,7 +52,6 @@ impl Session {
             }
             ClayCommand::Toggle if self.tool() == Tool::Clay => self.take_tool(Tool::Look),
             ClayCommand::Toggle => self.take_clay_tool(),
-            ClayCommand::Hold(hand) => self.hold_clay_tool(hand),
             ClayCommand::Bake => {
                 let strokes = self.clay().map_or(0, |clay| clay.strokes.len());
                 self.take_own_tool(
@@ -83,11 +62,6 @@ impl Session {
                     "Bake the clay",
                 );
             }
-            ClayCommand::Draw {
-                way,
-                touches,
-                is_over,
-            } => self.draw_stroke(way, &touches, is_over),
             ClayCommand::Together if self.tool() == Tool::Clay => self.toggle_together(),
             ClayCommand::Together => {}
             ClayCommand::LayOn(found) => self.lay_tool(found),
@@ -129,12 +103,12 @@ impl Session {
         })))
     }
 
-    /// Puts a mesh, or the clay as it stands, among the tools of the clay and takes it in hand: one step of undo.
+    /// Puts a drawn curve, a mesh, or the clay as it stands, among the tools of the clay and takes it in hand: one step of undo.
     pub(super) fn take_own_tool(&mut self, shape: ToolShape, name: &str) {
         let Some(clay) = self.clay().cloned() else {
             return;
         };
-        let hand = ClayHand {
+        let hand = HeldTool {
             own: Some(shape),
             ..self.clay_hand.clone()
         };
@@ -209,9 +183,13 @@ impl Session {
 
     /// Takes the way of a hand that shapes the clay. The whole gesture is one step of undo. While strokes are laid down
     /// it is a ghost in the end.
-    fn draw_stroke(&mut self, way: StrokeWay, touches: &[Touch], is_over: bool) {
-        if self.tool() != Tool::Clay {
-            self.drawn_stroke = None;
+    pub(super) fn draw_stroke(&mut self, way: StrokeWay, touches: &[Touch], is_over: bool) {
+        if way == StrokeWay::Form {
+            let form = form(&self.clay_hand, touches, &self.camera).filter(|_| is_over);
+            if let Some(form) = form {
+                self.clay_hand = self.clay_hand.formed(form.half_side());
+                self.take_own_tool(form, "Draw a tool");
+            }
             return;
         }
         let tool = self.tool_in_hand();
@@ -281,8 +259,8 @@ impl Session {
     }
 
     /// The places of tools in the clay's list, and the edit that puts those there that have none yet: in place of some
-    /// that no other stroke than that of the index uses, or behind the others. A mesh and a baked clay give way to what
-    /// is like them alone. `None` if all places are taken.
+    /// that no other stroke than that of the index uses, or behind the others. A curve, a mesh and a baked clay give way to
+    /// what has their form alone. `None` if all places are taken.
     fn places_of_tools(
         &self,
         clay: &Clay,
@@ -304,8 +282,8 @@ impl Session {
         for tool in tools {
             let known = held.iter().position(|other| other == tool);
             let gives_way = |shape: &ToolShape| {
-                let is_plain = ToolShape::NAMES.contains(&shape.name());
-                is_plain || tool.shape.as_ref().is_some_and(|new| new.is_like(shape))
+                let new = tool.shape.as_ref();
+                HeldTool::has_plain_form(shape) || new.is_some_and(|new| new.has_form_of(shape))
             };
             let is_free =
                 |i: &usize| held[*i].shape.as_ref().is_some_and(gives_way) && !used.contains(i);
@@ -385,134 +363,24 @@ fn changed(index: usize, stroke: &ClayStroke) -> Edit {
     }
 }
 
-pub(super) fn thousandths(pos: Vec3) -> [i32; 3] {
-    let pos = pos.clamp(Vec3::splat(-FARTHEST), Vec3::splat(FARTHEST));
-    (pos * 1e3).round().as_ivec3().to_array()
-}
-
-/// A turn as whole degrees about the axes of the subject, the shorter way round.
-pub(super) fn degrees(turn: Quat) -> [i32; 3] {
-    let turn = if turn.w < 0.0 { -turn } else { turn };
-    let vector = turn.to_scaled_axis() * (180.0 / std::f32::consts::PI);
-    let vector = vector.clamp_length_max(LONGEST_TURN);
-    vector.round().as_ivec3().to_array()
-}
-
 /// The stroke that a gesture is, by the first tool of a list; `None` where it has come to nothing yet.
 fn stroke(
-    hand: &ClayHand,
+    hand: &HeldTool,
     way: StrokeWay,
     touches: &[Touch],
     camera: &Camera,
 ) -> Option<ClayStroke> {
-    let (first, last) = (touches.first()?, touches.last()?);
-    let (at, turn) = hand.pose(first);
-    let key = |at: Vec3, turn: [i32; 3]| ClayKey {
-        at: thousandths(at),
-        turn,
-        percent: 100,
-    };
-    let begin = key(at, degrees(turn));
-    let [right, up, _] = camera::axes(camera.rotate);
-    let gone = last.pos - first.pos;
-    let [across, risen] = [gone.dot(right), gone.dot(up)];
-    let (keys, is_straight) = match way {
-        StrokeWay::Place => return None,
-        StrokeWay::Move | StrokeWay::Along | StrokeWay::Smooth => {
-            let places = touches.iter().map(|touch| match way {
-                StrokeWay::Move => at + (touch.pos - first.pos),
-                _ => hand.pose(touch).0,
-            });
-            let (places, is_straight) = few(&places.collect::<Vec<_>>(), hand.coat);
-            // A place that is smoothed needs no way.
-            if places.len() < 2 && way != StrokeWay::Smooth {
-                return None;
-            }
-            let mut keys: Vec<ClayKey> = places.into_iter().map(|at| key(at, [0; 3])).collect();
-            keys.first_mut()?.turn = begin.turn;
-            keys.dedup_by_key(|key| key.at);
-            (keys, is_straight)
-        }
-        StrokeWay::Push => {
-            // Up pulls.
-            let from = match risen > 0.0 {
-                true => first.pos - INSIDE * hand.size * first.normal,
-                false => first.pos + OUTSIDE * hand.size * first.normal,
-            };
-            let to = from + risen * first.normal;
-            (vec![key(from, begin.turn), key(to, [0; 3])], false)
-        }
-        StrokeWay::Turn => {
-            let angle = (TURN * across / seen_across(camera)).round();
-            let parts = (angle.abs() / TURN_OF_KEY).ceil().max(1.0);
-            let by = (first.normal * (angle / parts))
-                .round()
-                .as_ivec3()
-                .to_array();
-            let turned = std::iter::repeat_n(key(at, by), parts as usize);
-            (std::iter::once(begin).chain(turned).collect(), true)
-        }
-        StrokeWay::Grow => {
-            let grown = (risen / (DOUBLES * seen_across(camera))).exp2();
-            let percent = (100.0 * grown).round().clamp(PERCENT[0], PERCENT[1]) as i32;
-            let end = ClayKey {
-                percent,
-                ..key(at, [0; 3])
-            };
-            (vec![begin, end], false)
-        }
-    };
-    let is_still = keys.windows(2).all(|pair| {
-        let [from, to] = pair else { return true };
-        from.at == to.at && from.percent == to.percent && to.turn == [0; 3]
-    });
-    let smooth = (way == StrokeWay::Smooth).then_some(ClayStroke::DEFAULT_STRENGTH);
-    (smooth.is_some() || !is_still).then(|| ClayStroke {
+    let Gesture { keys, is_straight } = gesture(hand, way, touches, camera)?;
+    Some(ClayStroke {
         moves: vec![ClayMove {
             tool: 0,
             keys,
             is_straight,
         }],
         mirror: hand.mirror,
-        smooth,
+        smooth: (way == StrokeWay::Smooth).then_some(ClayStroke::DEFAULT_STRENGTH),
         is_off: false,
     })
-}
-
-/// The fewest places whose way stays near to all of a gesture, and whether that is the straight one: a smooth curve
-/// through few of them may stray.
-fn few(places: &[Vec3], coat: f32) -> (Vec<Vec3>, bool) {
-    let tolerance = (OFF_COAT * coat).max(OFF_LEAST);
-    for part in [1.0, 0.5, 0.25] {
-        let keys = thinned(places, part * tolerance);
-        if keys.len() < 3 {
-            return (keys, false);
-        }
-        if is_near(&curve(&keys), places, tolerance) {
-            return (keys, false);
-        }
-    }
-    (thinned(places, tolerance), true)
-}
-
-/// The smooth way through places, as a clay takes it.
-pub fn curve(keys: &[Vec3]) -> Vec<Vec3> {
-    let pose = |at: &Vec3| Similarity::new(1.0, DQuat::IDENTITY, at.as_dvec3());
-    let poses: Vec<Similarity> = keys.iter().map(pose).collect();
-    let way = smooth_path(&poses).into_iter();
-    way.map(|pose| pose.place.as_vec3()).collect()
-}
-
-/// True if a way passes all places within the tolerance, and goes nowhere else.
-fn is_near(way: &[Vec3], places: &[Vec3], tolerance: f32) -> bool {
-    let away = |pos: &Vec3, way: &[Vec3]| {
-        let pieces = way
-            .windows(2)
-            .map(|piece| distance_to(*pos, piece[0], piece[1]));
-        pieces.fold(f32::INFINITY, f32::min)
-    };
-    places.iter().all(|pos| away(pos, way) <= tolerance)
-        && way.iter().all(|pos| away(pos, places) <= tolerance)
 }
 
 /// The address and the hash of a subject's file, its name, and how it is read; `None` if it is no single file.
@@ -570,9 +438,11 @@ fn voxels_of(subject: &SubjectRef) -> Option<VoxelSource> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::session::{Command, Effect, See};
+    use crate::app::session::camera;
+    use crate::app::session::shape::seen_across;
+    use crate::app::session::{Command, Effect, HandCommand, See};
     use crate::data::{Subject, Surface};
-    use crate::document::{ClayShape, Document, clay_to_text};
+    use crate::document::{ClayKey, ClayShape, Document, clay_to_text};
 
     const UP: Touch = Touch {
         pos: Vec3::new(0.2, 0.0, 0.45),
@@ -609,12 +479,12 @@ mod tests {
         is_over: bool,
     ) -> Vec<Effect> {
         let touches = touches.to_vec();
-        let command = ClayCommand::Draw {
+        let command = HandCommand::Draw {
             way,
             touches,
             is_over,
         };
-        session.run(Command::Clay(command), 0.0)
+        session.run(Command::Hand(command), 0.0)
     }
 
     fn strokes(session: &Session) -> &[ClayStroke] {
@@ -645,28 +515,6 @@ mod tests {
         assert!(strokes(&session).is_empty());
         session.run(Command::Redo, 0.0);
         assert_eq!(strokes(&session).len(), 1);
-    }
-
-    #[test]
-    fn the_smooth_way_stays_near_the_hand() {
-        let places: Vec<Vec3> = arc().iter().map(|touch| touch.pos).collect();
-        let (keys, is_straight) = few(&places, 0.1);
-        assert!(!is_straight && keys.len() < 8, "{} keys", keys.len());
-        assert!(is_near(&curve(&keys), &places, 0.1 / 16.0));
-        // A corner that a curve would round off.
-        let corner = |i: usize| match i < 30 {
-            true => Vec3::new(0.01 * i as f32, 0.0, 0.0),
-            false => Vec3::new(0.3, 0.01 * (i - 30) as f32, 0.0),
-        };
-        let places: Vec<Vec3> = (0..60).map(corner).collect();
-        let (keys, is_straight) = few(&places, 0.02);
-        let way = if is_straight {
-            keys.clone()
-        } else {
-            curve(&keys)
-        };
-        assert!(is_near(&way, &places, 0.0021), "{keys:?}");
-        assert_eq!(few(&[], 0.1).0, []);
     }
 
     #[test]
@@ -718,10 +566,10 @@ mod tests {
     #[test]
     fn tools_are_listed_once_and_unused_ones_give_way() {
         let mut session = session();
-        let mut hand = ClayHand::default();
+        let mut hand = HeldTool::default();
         for size in [0.1, 0.2, 0.1, 0.3] {
             hand.size = size;
-            session.run(Command::Clay(ClayCommand::Hold(hand.clone())), 0.0);
+            session.run(Command::Hand(HandCommand::Hold(hand.clone())), 0.0);
             draw(&mut session, StrokeWay::Move, &arc(), true);
         }
         let clay = session.clay().expect("a clay");
@@ -730,12 +578,12 @@ mod tests {
         assert_eq!(tools.collect::<Vec<_>>(), [0, 1, 0, 2]);
         session.run(Command::Clay(ClayCommand::Remove(1)), 0.0);
         hand.size = 0.4;
-        session.run(Command::Clay(ClayCommand::Hold(hand.clone())), 0.0);
+        session.run(Command::Hand(HandCommand::Hold(hand.clone())), 0.0);
         draw(&mut session, StrokeWay::Move, &arc(), true);
         assert_eq!(session.clay().expect("a clay").tools.len(), 3);
         for i in 0..20 {
             hand.size = 0.02 + 0.01 * i as f32;
-            session.run(Command::Clay(ClayCommand::Hold(hand.clone())), 0.0);
+            session.run(Command::Hand(HandCommand::Hold(hand.clone())), 0.0);
             draw(&mut session, StrokeWay::Move, &arc(), true);
         }
         assert_eq!(session.clay().expect("a clay").tools.len(), Clay::MAX_TOOLS);
@@ -767,14 +615,14 @@ mod tests {
         // In another size it takes the place of what no stroke uses; a plain tool does not.
         let mut hand = session.clay_hand.clone();
         hand.size = 0.15;
-        session.run(Command::Clay(ClayCommand::Hold(hand.clone())), 0.0);
+        session.run(Command::Hand(HandCommand::Hold(hand.clone())), 0.0);
         draw(&mut session, StrokeWay::Move, &arc(), true);
         assert_eq!(tools(&session)[1..], [baked(1, 0.3)]);
         let stroke = &session.clay().expect("a clay").strokes[1];
         assert_eq!(stroke.moves[0].tool, 1);
         session.run(Command::Clay(ClayCommand::Bake), 0.0);
-        let plain = ClayHand { own: None, ..hand };
-        session.run(Command::Clay(ClayCommand::Hold(plain)), 0.0);
+        let plain = HeldTool { own: None, ..hand };
+        session.run(Command::Hand(HandCommand::Hold(plain)), 0.0);
         draw(&mut session, StrokeWay::Move, &arc(), true);
         assert_eq!(tools(&session)[1..3], [baked(1, 0.3), baked(2, 0.3)]);
         assert_eq!(tools(&session).len(), 4);

@@ -2,16 +2,17 @@
 
 use glam::Vec3;
 
-use super::clay::{ClayHand, Ghost};
+use super::clay::Ghost;
+use super::gesture::thousandths;
+use super::hand::HeldTool;
 use super::notices::Gravity;
 use super::session::Session;
-use super::shaping::thousandths;
 use crate::app::words::clay::w;
 use crate::app::words::fill;
 use crate::document::{Clay, ClayMove, ClayStroke, ClayTool};
 
 /// True if so many tools with the mirror images of a hand may act at once.
-fn has_room(count: usize, hand: &ClayHand) -> bool {
+fn has_room(count: usize, hand: &HeldTool) -> bool {
     let mirrors = hand.mirror.iter().filter(|is_on| **is_on).count();
     count << mirrors <= Clay::MAX_AT_ONCE
 }
@@ -109,7 +110,7 @@ impl Session {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::session::{ClayCommand, Command, StrokeWay, Tool, Touch};
+    use crate::app::session::{ClayCommand, Command, HandCommand, StrokeWay, Tool, Touch};
     use crate::document::{ClayShape, ClayStart, Document};
 
     fn run(session: &mut Session, command: ClayCommand) {
@@ -127,12 +128,12 @@ mod tests {
     }
 
     fn hold(session: &mut Session, size: f32, mirror: [bool; 3]) {
-        let hand = ClayHand {
+        let hand = HeldTool {
             size,
             mirror,
-            ..ClayHand::default()
+            ..HeldTool::default()
         };
-        run(session, ClayCommand::Hold(hand));
+        session.run(Command::Hand(HandCommand::Hold(hand)), 0.0);
     }
 
     /// A way upwards that begins so far to the left.
@@ -144,12 +145,12 @@ mod tests {
         };
         for (count, is_over) in [(5, false), (11, true)] {
             let touches = (0..count).map(touch).collect();
-            let command = ClayCommand::Draw {
+            let command = HandCommand::Draw {
                 way,
                 touches,
                 is_over,
             };
-            run(session, command);
+            session.run(Command::Hand(command), 0.0);
         }
     }
 

@@ -29,6 +29,8 @@ words! {
         acts: "Handles act", "Griffe wirken", "Los tiradores actúan", "手柄起作用";
         acts_hint: "Handles act: each drag of one shapes the clay by the tool on its way; otherwise they only place it", "Griffe wirken: jedes Ziehen formt den Ton mit dem Werkzeug auf seinem Weg; sonst legen sie es nur zurecht", "Los tiradores actúan: cada arrastre modela la arcilla con el instrumento por su camino; si no, solo lo colocan", "手柄起作用：每次拖动都让器械沿途塑形；否则只摆放器械";
         form: "Form of the tool", "Form des Werkzeugs", "Forma del instrumento", "器械的形状";
+        draw_form: "Draw the form…", "Form zeichnen…", "Dibujar la forma…", "绘制形状…";
+        draw_form_hint: "The next drag over the picture draws a curve, which becomes the tool in the hand", "Der nächste Zug über das Bild zeichnet eine Kurve, die das Werkzeug in der Hand wird", "El próximo arrastre sobre la imagen dibuja una curva, que será el instrumento en la mano", "下一次在图像上拖动画出的曲线将成为手中的器械";
         bake: "Bake the clay", "Ton backen", "Cocer la arcilla", "烘焙黏土";
         bake_hint: "The clay as it stands becomes a tool in the hand", "Der Ton, wie er jetzt ist, wird ein Werkzeug in der Hand", "La arcilla tal como está se vuelve un instrumento en la mano", "当前的黏土成为手中的器械";
         size: "Size", "Größe", "Tamaño", "大小";
@@ -43,7 +45,7 @@ words! {
         larger: "Larger tool", "Größeres Werkzeug", "Instrumento mayor", "放大器械";
         mirror: "Mirror across {0}", "Spiegeln quer zu {0}", "Espejo en {0}", "沿 {0} 镜像";
         mirrors: "Mirror", "Spiegeln", "Espejo", "镜像";
-        mirror_hint: "The tool has an image beyond the middle of the clay, which acts at the same time", "Das Werkzeug hat ein Spiegelbild jenseits der Mitte des Tons, das gleichzeitig wirkt", "El instrumento tiene una imagen reflejada más allá del centro de la arcilla, que actúa a la vez", "器械在黏土中面另一侧有镜像，同时作用";
+        mirror_hint: "The tool has an image beyond the middle of the object, which acts at the same time", "Das Werkzeug hat ein Spiegelbild jenseits der Mitte des Objekts, das gleichzeitig wirkt", "El instrumento tiene una imagen reflejada más allá del centro del objeto, que actúa a la vez", "器械在对象中面另一侧有镜像，同时作用";
         shown: "Shown", "Gezeigt", "Mostrados", "显示";
         shown_hint: "As many strokes are shown, the first ones; steps can let the clay grow by them", "So viele Striche werden gezeigt, die ersten; Schritte können den Ton damit wachsen lassen", "Se muestran tantos trazos, los primeros; los pasos pueden hacer crecer la arcilla con ellos", "显示最前面的这些笔划；步骤可使黏土随之成形";
         show_all_first: "Strokes are drawn where all of them are shown: put “Shown” to the end first", "Striche zeichnet man, wo alle gezeigt werden: zuerst „Gezeigt“ ans Ende stellen", "Los trazos se dibujan donde se muestran todos: lleve antes «Mostrados» al final", "须显示全部笔划才能绘制：先把“显示”调到最后";

@@ -5,6 +5,7 @@ words! {
     Sweep {
         tools: "Tools", "Werkzeuge", "Instrumentos", "器械";
         tools_hint: "They act at once, each along its own path", "Sie wirken gleichzeitig, jedes auf seinem Weg", "Actúan a la vez, cada uno por su recorrido", "它们同时作用，各沿自己的路径";
+        in_hand: "Tool in hand", "Werkzeug in der Hand", "Instrumento en la mano", "手中的器械";
         add: "Add a tool", "Werkzeug hinzufügen", "Añadir un instrumento", "添加器械";
         remove: "Remove tool {0}", "Werkzeug {0} entfernen", "Quitar el instrumento {0}", "移除器械 {0}";
         tool: "Tool {0}", "Werkzeug {0}", "Instrumento {0}", "器械 {0}";
