@@ -19,7 +19,7 @@ use crate::document::{Clay, ClayKey, ClayMove, ClayStroke, ClayTool};
 
 /// Rounds in which the times of a drag are taken, and those of a recipe. The median counts.
 const DRAG_ROUNDS: usize = 7;
-const RECIPE_ROUNDS: usize = 3;
+const RECIPE_ROUNDS: usize = 5;
 /// Edges of the sheet that is dragged, subject units, and its detail. Diagonals are shorter than the detail, sides
 /// longer than half of it: at rest no edge asks for anything.
 const SPACING: f64 = 0.0025;

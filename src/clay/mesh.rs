@@ -5,6 +5,8 @@
 
 use glam::{DVec3, Vec3};
 
+use super::roomy::Roomy;
+
 /// Stands for an index where there is none.
 pub(super) const NONE: u32 = u32::MAX;
 
@@ -34,32 +36,19 @@ impl Vertex {
     }
 }
 
-/// Bytes that a list has taken, room that it does not use yet counted.
-pub(super) fn taken<T>(list: &Vec<T>) -> usize {
-    list.capacity() * size_of::<T>()
-}
-
-/// Fills a list up to a length. Its room grows by an eighth, since a list that doubles takes twice what it needs.
-pub(super) fn lengthen<T: Clone>(list: &mut Vec<T>, len: usize, item: T) {
-    if len > list.capacity() {
-        list.reserve_exact(len + len / 8 - list.len());
-    }
-    list.resize(len, item);
-}
-
 /// Triangles with their neighbours. Every edge has one triangle or two, which run through it in opposite directions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClayMesh {
     /// Places and normals before the step that is being done.
-    pub(super) vertices: Vec<Vertex>,
+    pub(super) vertices: Roomy<Vertex>,
     /// A half-edge that leaves the vertex, of a border vertex the one along the border; [`NONE`]: the place is free.
-    leaving: Vec<u32>,
+    leaving: Roomy<u32>,
     /// Vertices of a triangle, counter-clockwise seen from outside; [`NONE`] first: the place is free.
-    triangles: Vec<[u32; 3]>,
+    triangles: Roomy<[u32; 3]>,
     /// The other half-edge of each half-edge; [`NONE`] at a border.
-    twins: Vec<[u32; 3]>,
-    free_vertices: Vec<u32>,
-    free_triangles: Vec<u32>,
+    twins: Roomy<[u32; 3]>,
+    free_vertices: Roomy<u32>,
+    free_triangles: Roomy<u32>,
 }
 
 /// The half-edge that follows in a triangle.
@@ -111,18 +100,18 @@ impl ClayMesh {
         twins: Vec<[u32; 3]>,
     ) -> Option<Self> {
         let mut mesh = Self::unjoined(vertices, triangles);
-        mesh.twins = twins;
+        mesh.twins = twins.into();
         mesh.with_fans()
     }
 
     fn unjoined(vertices: Vec<Vertex>, triangles: Vec<[u32; 3]>) -> Self {
         Self {
-            leaving: vec![NONE; vertices.len()],
-            vertices,
-            twins: vec![[NONE; 3]; triangles.len()],
-            triangles,
-            free_vertices: Vec::new(),
-            free_triangles: Vec::new(),
+            leaving: vec![NONE; vertices.len()].into(),
+            vertices: vertices.into(),
+            twins: vec![[NONE; 3]; triangles.len()].into(),
+            triangles: triangles.into(),
+            free_vertices: Roomy::default(),
+            free_triangles: Roomy::default(),
         }
     }
 
@@ -190,7 +179,7 @@ impl ClayMesh {
     }
 
     pub(super) fn from(&self, half: u32) -> u32 {
-        self.triangles[(half / 3) as usize][(half % 3) as usize]
+        self.triangles.as_flattened()[half as usize]
     }
 
     pub(super) fn to(&self, half: u32) -> u32 {
@@ -204,12 +193,12 @@ impl ClayMesh {
 
     /// The half-edge of the neighbour, if there is one.
     pub(super) fn twin(&self, half: u32) -> Option<u32> {
-        let twin = self.twins[(half / 3) as usize][(half % 3) as usize];
+        let twin = self.twins.as_flattened()[half as usize];
         (twin != NONE).then_some(twin)
     }
 
     fn set_twin(&mut self, half: u32, twin: u32) {
-        self.twins[(half / 3) as usize][(half % 3) as usize] = twin;
+        self.twins.as_flattened_mut()[half as usize] = twin;
     }
 
     fn join(&mut self, one: u32, two: u32) {
@@ -243,12 +232,12 @@ impl ClayMesh {
 
     /// Bytes that the mesh has taken, by the room in its lists.
     pub(super) fn bytes(&self) -> usize {
-        taken(&self.vertices)
-            + taken(&self.leaving)
-            + taken(&self.triangles)
-            + taken(&self.twins)
-            + taken(&self.free_vertices)
-            + taken(&self.free_triangles)
+        self.vertices.taken()
+            + self.leaving.taken()
+            + self.triangles.taken()
+            + self.twins.taken()
+            + self.free_vertices.taken()
+            + self.free_triangles.taken()
     }
 
     /// The vertices of a triangle; `None` if its place is free.
@@ -273,7 +262,7 @@ impl ClayMesh {
 
     /// Number of edges that have one triangle alone.
     pub(super) fn border_count(&self) -> usize {
-        let live = self.triangles.iter().zip(&self.twins);
+        let live = self.triangles.iter().zip(self.twins.iter());
         let live = live.filter(|(corners, _)| corners[0] != NONE);
         live.flat_map(|(_, twins)| twins)
             .filter(|twin| **twin == NONE)
@@ -340,8 +329,8 @@ impl ClayMesh {
     fn new_triangle(&mut self) -> u32 {
         self.free_triangles.pop().unwrap_or_else(|| {
             let places = self.triangles.len();
-            lengthen(&mut self.triangles, places + 1, [NONE; 3]);
-            lengthen(&mut self.twins, places + 1, [NONE; 3]);
+            self.triangles.lengthen(places + 1, [NONE; 3]);
+            self.twins.lengthen(places + 1, [NONE; 3]);
             places as u32
         })
     }
@@ -352,8 +341,8 @@ impl ClayMesh {
             return index;
         }
         let places = self.vertices.len();
-        lengthen(&mut self.vertices, places + 1, vertex);
-        lengthen(&mut self.leaving, places + 1, NONE);
+        self.vertices.lengthen(places + 1, vertex);
+        self.leaving.lengthen(places + 1, NONE);
         places as u32
     }
 

@@ -11,6 +11,7 @@ mod mend;
 mod mesh;
 mod motion;
 mod refine;
+mod roomy;
 mod shaping;
 mod smooth;
 mod space;

@@ -2,12 +2,13 @@
 //! Angelidis, Wyvill and Cani, Sweepers, section 5.1). An edge is judged by where its ends go in the step; new and
 //! merged vertices are made before the step and moved by it.
 
-use std::cmp::Reverse;
+use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use super::mesh::{ClayMesh, Vertex, lengthen};
+use super::mesh::{ClayMesh, Vertex};
+use super::roomy::Roomy;
 
 /// Most triangles: beyond them no edge is split.
 pub const MAX_TRIANGLES: usize = 300_000;
@@ -34,13 +35,15 @@ pub(super) trait Carry {
 pub(super) struct Stepping<'a> {
     pub(super) mesh: &'a mut ClayMesh,
     /// Places after the step, for the vertices in `moved`.
-    pub(super) after: &'a mut Vec<Vertex>,
+    pub(super) after: &'a mut Roomy<Vertex>,
     /// The number of the step in which a vertex was last moved.
-    pub(super) moved_in: &'a mut Vec<u32>,
+    pub(super) moved_in: &'a mut Roomy<u32>,
     /// This step's number.
     pub(super) number: u32,
     /// The vertices that this step moves.
     pub(super) moved: Vec<u32>,
+    /// The number of the step in which edges of a vertex may have come to ask for a flip.
+    pub(super) turned_in: &'a mut Roomy<u32>,
     /// Vertices that came to be in this step, moved or not.
     pub(super) made: Vec<u32>,
     /// Longest edge.
@@ -108,24 +111,17 @@ fn to_cubic_middle(a: &Vertex, b: &Vertex) -> DVec3 {
     (m * along.dot(m) - n * along.dot(n)) * 0.125
 }
 
-/// True if a way is longer than this. Most are far from it, and need no root to tell.
+/// How long a way is beside a length. Most are far from it, and need no root to tell.
 #[inline]
-fn is_longer(way: DVec3, than: f64) -> bool {
-    let (square, limit) = (way.length_squared(), than * than);
+fn compared(way: DVec3, with: f64) -> Option<Ordering> {
+    let (square, limit) = (way.length_squared(), with * with);
     if square < limit * (1.0 - NEAR) {
-        return false;
+        Some(Ordering::Less)
+    } else if square > limit * (1.0 + NEAR) {
+        Some(Ordering::Greater)
+    } else {
+        way.length().partial_cmp(&with)
     }
-    square > limit * (1.0 + NEAR) || way.length() > than
-}
-
-/// As [`is_longer`], of ways that are shorter.
-#[inline]
-fn is_shorter(way: DVec3, than: f64) -> bool {
-    let (square, limit) = (way.length_squared(), than * than);
-    if square > limit * (1.0 + NEAR) {
-        return false;
-    }
-    square < limit * (1.0 - NEAR) || way.length() < than
 }
 
 /// The vertex in the middle of two: on the cubic unless that is far off.
@@ -154,7 +150,8 @@ fn is_split_at(square: f64, a: &Vertex, b: &Vertex, detail: f64) -> bool {
     if square <= detail * detail / 16.0 {
         return false;
     }
-    a.normal().dot(b.normal()) < SPLIT_COS || is_longer(to_cubic_middle(a, b), detail / 20.0)
+    a.normal().dot(b.normal()) < SPLIT_COS
+        || compared(to_cubic_middle(a, b), detail / 20.0) == Some(Ordering::Greater)
 }
 
 /// True if an edge with a length of this square collapses.
@@ -165,7 +162,7 @@ fn is_collapsed_at(square: f64, a: &Vertex, b: &Vertex, detail: f64) -> bool {
     }
     let is_plain = a.normal().dot(b.normal()) > COLLAPSE_COS;
     square < detail * detail / 256.0
-        || (is_plain && is_shorter(to_cubic_middle(a, b), detail / 40.0))
+        || (is_plain && compared(to_cubic_middle(a, b), detail / 40.0) == Some(Ordering::Less))
 }
 
 /// Twice the area of a triangle, along its normal.
@@ -228,12 +225,29 @@ impl Stepping<'_> {
         let vertex = self.mesh.split(half, middle);
         self.work.splits += 1;
         let places = self.mesh.vertices.len();
-        lengthen(self.after, places, middle);
-        lengthen(self.moved_in, places, 0);
+        self.after.lengthen(places, middle);
+        self.moved_in.lengthen(places, 0);
+        self.turned_in.lengthen(places, 0);
         self.moved_in[vertex as usize] = 0;
         self.made.push(vertex);
         self.move_to(vertex, carry.carry(&middle));
+        self.note_turned_around(vertex);
         vertex
+    }
+
+    /// Takes note that edges of a vertex may ask for a flip.
+    fn note_turned(&mut self, vertex: u32) {
+        self.turned_in[vertex as usize] = self.number;
+    }
+
+    /// As [`Self::note_turned`], of a vertex that is new or lies elsewhere and of its neighbours.
+    fn note_turned_around(&mut self, vertex: u32) {
+        self.note_turned(vertex);
+        for half in self.mesh.fan(vertex) {
+            for other in [self.mesh.to(half), self.mesh.across(half)] {
+                self.turned_in[other as usize] = self.number;
+            }
+        }
     }
 
     /// Puts an edge into the queue of what it asks for. Only edges that the step moves as a whole collapse.
@@ -257,24 +271,46 @@ impl Stepping<'_> {
         }
     }
 
-    /// What the edges of the vertices that move ask for.
-    fn asked(&self) -> Asked {
+    /// What the edges of the vertices that move ask for. Takes note of the vertices that may have an edge to be flipped:
+    /// most steps leave nearly all edges as they are.
+    fn asked(&mut self) -> Asked {
         let mut asked = Asked::default();
-        for vertex in self.moving() {
-            let one = self.after(vertex);
-            for half in self.mesh.fan(vertex) {
-                let to = self.mesh.to(half);
-                if to < vertex || !self.is_moved(to) {
-                    self.ask_from((vertex, one), to, &mut asked);
-                }
+        let mut fan = Vec::new();
+        for i in 0..self.moved.len() {
+            let vertex = self.moved[i];
+            if !self.is_moving(vertex) {
+                continue;
             }
-            if self.mesh.is_border(vertex) {
+            let one = *self.after(vertex);
+            let is_border = self.mesh.is_border(vertex);
+            let mut may_turn = is_border;
+            self.fan_after(vertex, &mut fan);
+            for (at, (_, to, pos)) in fan.iter().enumerate() {
+                if *to > vertex && self.is_moved(*to) {
+                    continue;
+                }
+                self.ask_from((vertex, &one), *to, &mut asked);
+                may_turn = may_turn || is_wide(one.pos(), *pos, beside(&fan, at));
+            }
+            if may_turn {
+                self.note_turned(vertex);
+            }
+            if is_border {
                 for edge in self.edges_of(vertex) {
                     self.ask(edge, &mut asked);
                 }
             }
         }
         asked
+    }
+
+    /// The half-edges that leave a vertex, where each leads to, and where that lies after the step.
+    fn fan_after(&self, vertex: u32, fan: &mut Vec<(u32, u32, DVec3)>) {
+        fan.clear();
+        for half in self.mesh.fan(vertex) {
+            let to = self.mesh.to(half);
+            fan.push((half, to, self.after(to).pos()));
+        }
     }
 
     /// The half-edge of what a queue gave, if the edge is still there and as long as it was.
@@ -293,10 +329,9 @@ impl Stepping<'_> {
         halves.map(move |other| [vertex, other])
     }
 
-    /// The vertices that move and are there.
-    fn moving(&self) -> impl Iterator<Item = u32> + '_ {
-        let moved = self.moved.iter().copied();
-        moved.filter(|vertex| self.mesh.is_vertex(*vertex) && self.is_moved(*vertex))
+    /// True of a vertex that moves and is there.
+    fn is_moving(&self, vertex: u32) -> bool {
+        self.mesh.is_vertex(vertex) && self.is_moved(vertex)
     }
 
     /// Lets the edges follow: long ones split, short ones collapse, then slender triangles flip.
@@ -381,6 +416,7 @@ impl Stepping<'_> {
         let vertex = self.mesh.collapse(half, before);
         self.work.collapses += 1;
         self.move_to(vertex, after);
+        self.note_turned_around(vertex);
         Some(vertex)
     }
 
@@ -389,15 +425,11 @@ impl Stepping<'_> {
         let mut fan = Vec::new();
         for i in 0..self.moved.len() {
             let vertex = self.moved[i];
-            if !self.mesh.is_vertex(vertex) || !self.is_moved(vertex) {
+            if self.turned_in[vertex as usize] != self.number || !self.is_moving(vertex) {
                 continue;
             }
             let middle = self.after(vertex).pos();
-            fan.clear();
-            fan.extend(self.mesh.fan(vertex).map(|half| {
-                let to = self.mesh.to(half);
-                (half, to, self.after(to).pos())
-            }));
+            self.fan_after(vertex, &mut fan);
             // What lies on both sides of an edge is then before and behind it in the fan.
             let mut is_as_it_was = !self.mesh.is_border(vertex);
             for at in 0..fan.len() {
@@ -412,15 +444,18 @@ impl Stepping<'_> {
                 if to > vertex && self.is_moved(to) {
                     continue;
                 }
-                if is_as_it_was {
-                    let beside = [at + 1, at + fan.len() - 1].map(|k| fan[k % fan.len()].2);
-                    if !is_wide(middle, pos, beside) {
-                        continue;
-                    }
+                if is_as_it_was && !is_wide(middle, pos, beside(&fan, at)) {
+                    continue;
                 }
-                if self.is_worth_a_flip(half) && self.mesh.flip(half).is_some() {
+                if self.is_worth_a_flip(half)
+                    && let Some(new) = self.mesh.flip(half)
+                {
                     self.work.flips += 1;
                     is_as_it_was = false;
+                    for half in [Some(new), self.mesh.twin(new)].into_iter().flatten() {
+                        let ends = [self.mesh.from(half), self.mesh.across(half)];
+                        ends.into_iter().for_each(|vertex| self.note_turned(vertex));
+                    }
                 }
             }
         }
@@ -453,6 +488,14 @@ impl Stepping<'_> {
             && is_turned_little(one + two, second)
             && !must_split(self.after(corners[2]), self.after(corners[3]), self.detail)
     }
+}
+
+/// Where the neighbours before and behind one of a fan lie.
+#[inline]
+fn beside(fan: &[(u32, u32, DVec3)], at: usize) -> [DVec3; 2] {
+    let behind = if at + 1 < fan.len() { at + 1 } else { 0 };
+    let before = if at > 0 { at } else { fan.len() } - 1;
+    [behind, before].map(|k| fan[k].2)
 }
 
 /// False if the angles across an edge are less than half a turn together: the edge is the better one.

@@ -7,9 +7,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::error::ClayError;
-use super::mesh::{ClayMesh, Vertex, lengthen, taken};
+use super::mesh::{ClayMesh, Vertex};
 use super::motion::{LeftOut, Motion, Step, around, is_in};
 use super::refine::{Carry, MAX_TRIANGLES, Stepping, Work};
+use super::roomy::Roomy;
 use super::smooth;
 use super::space::Space;
 use super::start;
@@ -29,14 +30,15 @@ const ROUNDS: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Shaping {
     pub(super) mesh: ClayMesh,
-    after: Vec<Vertex>,
-    moved_in: Vec<u32>,
+    after: Roomy<Vertex>,
+    moved_in: Roomy<u32>,
+    turned_in: Roomy<u32>,
     space: Space,
     /// Number of the step, over all strokes.
     number: u32,
     pub(super) detail: f64,
     /// The vertices that the last stroke moved.
-    touched: Vec<bool>,
+    touched: Roomy<bool>,
     /// Strokes that did nothing, and why.
     left_out: Vec<(usize, LeftOut)>,
     /// The stroke since which there were too many triangles to split edges.
@@ -105,10 +107,11 @@ impl Shaping {
 
     /// A clay of this mesh, which no stroke has touched.
     pub(super) fn of(mesh: ClayMesh, space: Space, detail: f64) -> Self {
-        Self {
+        let mut shaping = Self {
             after: mesh.vertices.clone(),
-            moved_in: vec![0; mesh.vertices.len()],
-            touched: vec![false; mesh.vertices.len()],
+            moved_in: vec![0; mesh.vertices.len()].into(),
+            turned_in: vec![0; mesh.vertices.len()].into(),
+            touched: vec![false; mesh.vertices.len()].into(),
             mesh,
             space,
             number: 0,
@@ -120,7 +123,10 @@ impl Shaping {
             work: Work::default(),
             grids: Grids::default(),
             is_fine: false,
-        }
+        };
+        // So that the first stroke has no more to look at than those after it.
+        shaping.is_fine = shaping.long_triangles().is_empty();
+        shaping
     }
 
     /// This one with the grids of tools that are meshes.
@@ -197,6 +203,7 @@ impl Shaping {
             mesh: &mut self.mesh,
             after: &mut self.after,
             moved_in: &mut self.moved_in,
+            turned_in: &mut self.turned_in,
             number: self.number,
             moved: Vec::new(),
             made: Vec::new(),
@@ -253,6 +260,7 @@ impl Shaping {
         go_on: &mut dyn FnMut(f32) -> bool,
     ) -> Result<(), ClayError> {
         let mut long = self.long_triangles();
+        self.is_fine = long.is_empty();
         let (mut done, all) = (0, times.len());
         for times in times.chunks(WIDE) {
             let steps: Vec<Step> = times.iter().map(|time| motion.step(*time)).collect();
@@ -329,7 +337,7 @@ impl Shaping {
 
     /// New vertices have not moved yet, whatever had their places before.
     fn note_made(&mut self, made: &[u32]) {
-        lengthen(&mut self.touched, self.mesh.vertices.len(), false);
+        self.touched.lengthen(self.mesh.vertices.len(), false);
         for vertex in made {
             self.touched[*vertex as usize] = false;
         }
@@ -337,14 +345,12 @@ impl Shaping {
 
     /// The triangles that have an edge longer than the detail. Steps split what they move, so that where there was none
     /// there is none to look for, unless there are too many triangles to split.
-    fn long_triangles(&mut self) -> Vec<u32> {
+    fn long_triangles(&self) -> Vec<u32> {
         if self.is_fine && self.full_since.is_none() {
             return Vec::new();
         }
         let all = 0..self.mesh.triangle_places();
-        let long: Vec<u32> = all.filter(|t| self.is_long(*t)).collect();
-        self.is_fine = long.is_empty();
-        long
+        all.filter(|t| self.is_long(*t)).collect()
     }
 
     /// True if a triangle has an edge longer than the detail.
@@ -465,7 +471,7 @@ impl Shaping {
             let part = |pos: DVec3| f64::from(strength) / 200.0 * motion.field(&step, pos);
             let moved = smooth::smoothed(&mut self.mesh, &near, &part);
             self.look_after(&moved);
-            lengthen(&mut self.touched, self.mesh.vertices.len(), false);
+            self.touched.lengthen(self.mesh.vertices.len(), false);
             for vertex in moved {
                 self.touched[vertex as usize] = true;
             }
@@ -490,7 +496,8 @@ impl Shaping {
 
     /// Bytes that the mesh and what follows its vertices have taken.
     pub fn bytes(&self) -> usize {
-        self.mesh.bytes() + taken(&self.after) + taken(&self.moved_in) + taken(&self.touched)
+        let stamps = self.moved_in.taken() + self.turned_in.taken();
+        self.mesh.bytes() + self.after.taken() + stamps + self.touched.taken()
     }
 
     /// Number of strokes that are done, those that are off or left out counted too.

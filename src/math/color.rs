@@ -1,14 +1,23 @@
 //! The sRGB curve (IEC 61966-2-1), with the same bits on every machine.
 
+use std::sync::LazyLock;
+
+/// Linear light of each byte: a mesh has several for each of its triangles, and powers take long.
+static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
+    std::array::from_fn(|byte| {
+        let c = byte as f32 / 255.0;
+        if c <= 0.04045 {
+            c / 12.92
+        } else {
+            // The power in 64 bits is rounded once; `libm::powf` is one unit off for 23 of the bytes.
+            libm::pow(f64::from((c + 0.055) / 1.055), f64::from(2.4_f32)) as f32
+        }
+    })
+});
+
 /// Linear light, 0 to 1, of one sRGB byte.
 pub fn linear_from_srgb(byte: u8) -> f32 {
-    let c = f32::from(byte) / 255.0;
-    if c <= 0.04045 {
-        c / 12.92
-    } else {
-        // The power in 64 bits is rounded once; `libm::powf` is one unit off for 23 of the bytes.
-        libm::pow(f64::from((c + 0.055) / 1.055), f64::from(2.4_f32)) as f32
-    }
+    LINEAR[usize::from(byte)]
 }
 
 /// The sRGB byte nearest to a value of linear light; values outside 0 to 1 give the nearest end.

@@ -481,7 +481,7 @@ fn swept_tool(template: &fabrica::document::PlacedTemplate) -> &fabrica::documen
 fn a_sweep_is_drawn_by_any_form_in_any_way() {
     let mut window = Window::open(
         DESK,
-        r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#,
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "camera": { "distance": 10 } }"#,
     );
     window.take_sweep();
     window.look("sweep_in_hand");
@@ -489,7 +489,7 @@ fn a_sweep_is_drawn_by_any_form_in_any_way() {
     window.choose("What a drag does", "Push, pull");
     let middle = window.picture_center();
     window.harness.hover_at(middle);
-    window.settle();
+    window.steps(8);
     window.look("sweep_over_the_object");
     window.drag(middle, vec2(0.0, -70.0));
     let template = window.wait_for_sweep();
@@ -511,12 +511,10 @@ fn a_sweep_is_drawn_by_any_form_in_any_way() {
     window.choose("Form of the tool", "Draw the form…");
     let before = window.document().to_json();
     window.drag(middle - vec2(60.0, 30.0), vec2(120.0, 60.0));
-    window.settle();
+    window.steps(8);
+    window.look("sweep_form_in_hand");
     assert_eq!(window.document().to_json(), before);
     window.choose("What a drag does", "Move");
-    window.harness.hover_at(middle);
-    window.settle();
-    window.look("sweep_form_in_hand");
     window.drag(middle, vec2(0.0, 60.0));
     let template = window.wait_for_sweep();
     let shape = swept_tool(&template).shape.clone();

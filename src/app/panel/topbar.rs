@@ -61,7 +61,8 @@ pub(crate) fn ui(ui: &mut Ui, session: &Session, is_narrow: bool, commands: &mut
             || w().redo.to_owned(),
             |what| fill(w().redo_what, &[&names::edit_title(what)]),
         );
-        let response = widget::icon_button(ui, Icon::Redo, &name, redo.is_some());
+        let is_enabled = redo.is_some() || session.together.has_taken_back();
+        let response = widget::icon_button(ui, Icon::Redo, &name, is_enabled);
         if response.accessible_name(w().redo).clicked() {
             commands.push(Command::Redo);
         }

@@ -45,9 +45,16 @@ pub struct Together {
     pub is_on: bool,
     /// The ghosts. All have the mirror images of the tool in the hand.
     pub ghosts: Vec<Ghost>,
+    /// Those that undo took back, the last one last.
+    pub(super) taken_back: Vec<Ghost>,
 }
 
 impl Together {
+    /// True if undo took one back that can be laid down again.
+    pub fn has_taken_back(&self) -> bool {
+        !self.taken_back.is_empty()
+    }
+
     /// True if a ghost moves.
     pub fn may_act(&self) -> bool {
         self.ghosts.iter().any(|ghost| ghost.way.keys.len() > 1)

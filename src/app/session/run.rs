@@ -40,6 +40,7 @@ impl Session {
         self.view.figure.wants_reference = false;
         match command {
             Command::Undo if self.take_ghost_back() => {}
+            Command::Redo if self.lay_ghost_again() => {}
             Command::Undo => self.undo_or_redo(true),
             Command::Redo => self.undo_or_redo(false),
             Command::Apply(edit) => {

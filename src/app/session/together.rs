@@ -32,8 +32,23 @@ impl Session {
         let has_room = self.has_room_for(self.together.ghosts.len() + 1);
         if has_room {
             self.together.ghosts.push(ghost);
+            self.together.taken_back.clear();
         }
         has_room
+    }
+
+    /// Lays what was taken back last down again. False if there is nothing.
+    pub(super) fn lay_ghost_again(&mut self) -> bool {
+        let Some(ghost) = self.together.taken_back.pop() else {
+            return false;
+        };
+        if self.has_room_for(self.together.ghosts.len() + 1) {
+            self.lift_ghost();
+            self.together.ghosts.push(ghost);
+        } else {
+            self.together.taken_back.push(ghost);
+        }
+        true
     }
 
     /// True if so many tools may act at once; else a message says so.
@@ -73,13 +88,17 @@ impl Session {
     /// Takes back what was laid down last. False if there is nothing.
     pub(super) fn take_ghost_back(&mut self) -> bool {
         self.lift_ghost();
-        self.together.ghosts.pop().is_some()
+        let ghost = self.together.ghosts.pop();
+        let is_taken = ghost.is_some();
+        self.together.taken_back.extend(ghost);
+        is_taken
     }
 
     /// Takes back all that is laid down. False if there is nothing.
     pub(super) fn drop_ghosts(&mut self) -> bool {
         let has_ghosts = !self.together.ghosts.is_empty();
         self.together.ghosts.clear();
+        self.together.taken_back.clear();
         self.lift_ghost();
         has_ghosts
     }
@@ -187,6 +206,15 @@ mod tests {
         for x in [0.0, 0.1, 0.2] {
             draw(&mut session, StrokeWay::Move, x);
         }
+        let all = session.together.ghosts.clone();
+        for _ in 0..2 {
+            session.run(Command::Undo, 0.0);
+        }
+        assert_eq!(session.together.ghosts, all[..1]);
+        for _ in 0..2 {
+            session.run(Command::Redo, 0.0);
+        }
+        assert_eq!(session.together.ghosts, all, "and laid down again");
         session.run(Command::Undo, 0.0);
         assert_eq!(session.together.ghosts.len(), 2);
         run(&mut session, ClayCommand::RemoveGhost(0));
@@ -199,7 +227,10 @@ mod tests {
         session.run(Command::DeleteSelected, 0.0);
         assert!(session.together.ghosts.is_empty());
         draw(&mut session, StrokeWay::Move, 0.0);
+        session.run(Command::Redo, 0.0);
+        assert_eq!(session.together.ghosts.len(), 1, "a new one is the end");
         session.run(Command::Escape, 0.0);
+        session.run(Command::Redo, 0.0);
         assert!(session.together.ghosts.is_empty());
         assert_eq!(session.tool(), Tool::Clay, "one thing at a time");
         session.run(Command::PlaceInMiddle, 0.0);

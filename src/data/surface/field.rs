@@ -81,6 +81,12 @@ pub(super) struct FieldMaker<'a> {
     triangles: &'a [Triangle],
     /// The nearest triangle known so far, and its distance.
     nearest: Vec<(u32, f32)>,
+    /// The run in which each voxel got its triangle, 0 for those near it.
+    changed_in: Vec<u8>,
+    /// The number of the run that is done now, or was done last.
+    run: u8,
+    /// The number of the last run along each axis, forth and back; 0: there was none.
+    last_run: [[u8; 2]; 3],
 }
 
 impl<'a> FieldMaker<'a> {
@@ -95,6 +101,9 @@ impl<'a> FieldMaker<'a> {
             origin,
             triangles,
             nearest: vec![(u32::MAX, f32::INFINITY); dims.element_product() as usize],
+            changed_in: vec![0; dims.element_product() as usize],
+            run: 0,
+            last_run: [[0; 2]; 3],
         }
     }
 
@@ -114,6 +123,7 @@ impl<'a> FieldMaker<'a> {
         let index = self.index(voxel);
         if distance < self.nearest[index].1 {
             self.nearest[index] = (triangle, distance);
+            self.changed_in[index] = self.run;
         }
     }
 
@@ -140,32 +150,31 @@ impl<'a> FieldMaker<'a> {
     /// Carries the nearest triangles away from the surface, along an axis and back: fast sweeping (Zhao 2005), with
     /// triangles in place of numbers.
     pub(super) fn sweep(&mut self, axis: usize) {
-        let ends = self.dims.to_array();
-        let mut across = ends;
-        across[axis] = 1;
-        let each_line = |mut visit: Box<dyn FnMut(UVec3) + '_>| {
-            for z in 0..across[2] {
-                for y in 0..across[1] {
-                    for x in 0..across[0] {
-                        visit(UVec3::new(x, y, z));
+        for is_back in [false, true] {
+            self.carry(axis, is_back);
+        }
+    }
+
+    /// One run along an axis. Lines along the axis have nothing to do with each other; they go side by side, as they
+    /// lie in memory. What a voxel had in the run before along the same way was not nearer then, and is not now.
+    fn carry(&mut self, axis: usize, is_back: bool) {
+        self.run += 1;
+        let sides = self.dims.to_array().map(|side| side as usize);
+        let (stride, along) = (sides[..axis].iter().product::<usize>(), sides[axis]);
+        let before = std::mem::replace(&mut self.last_run[axis][usize::from(is_back)], self.run);
+        for first in (0..self.nearest.len()).step_by(stride * along) {
+            for i in 1..along {
+                let (from, to) = match is_back {
+                    false => (i - 1, i),
+                    true => (along - i, along - i - 1),
+                };
+                let [from, to] = [from, to].map(|i| first + i * stride);
+                for line in 0..stride {
+                    let (triangle, _) = self.nearest[from + line];
+                    let is_new = before == 0 || self.changed_in[from + line] > before;
+                    if is_new && triangle != u32::MAX && self.nearest[to + line].0 != triangle {
+                        self.offer(self.voxel(to + line), triangle);
                     }
-                }
-            }
-        };
-        let mut lines = Vec::with_capacity((across[0] * across[1] * across[2]) as usize);
-        each_line(Box::new(|start| lines.push(start)));
-        for start in lines {
-            let at = |i: u32| {
-                let mut voxel = start.to_array();
-                voxel[axis] = i;
-                UVec3::from_array(voxel)
-            };
-            let steps = (1..ends[axis]).map(|i| (i - 1, i));
-            let back = (1..ends[axis]).rev().map(|i| (i, i - 1));
-            for (from, to) in steps.chain(back) {
-                let (triangle, _) = self.nearest[self.index(at(from))];
-                if triangle != u32::MAX && self.nearest[self.index(at(to))].0 != triangle {
-                    self.offer(at(to), triangle);
                 }
             }
         }

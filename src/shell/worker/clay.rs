@@ -10,6 +10,7 @@ use wasm_bindgen_futures::JsFuture;
 use super::answer::post;
 use super::blobs::{BlobFiles, fetch, name_of, not_fetched};
 use super::fault;
+use super::other;
 use super::pieces::{unpacked, unpacked_grids};
 use super::task::{Part, ScanTask, text_of_reading};
 use crate::assets::LoadEvent;
@@ -84,12 +85,8 @@ async fn of_scan(
     if let VoxelSource::File { reading, .. } = &meant.of {
         Reflect::set(message, &"reading".into(), &text_of_reading(reading).into())?;
     }
-    let part: Promise = load
-        .call1(&JsValue::NULL, &Part::Scans.name().into())?
-        .unchecked_into();
-    let part = JsFuture::from(part).await?;
-    let read: Function = Reflect::get(&part, &"voxels".into())?.unchecked_into();
-    let read: Promise = read.call1(&part, message)?.unchecked_into();
+    let read = other::call(load, Part::Scans, "voxels", message).await?;
+    let read: Promise = read.unchecked_into();
     // Without one the reader has told why.
     let Ok(read) = JsFuture::from(read).await?.dyn_into::<Array>() else {
         return Ok(());

@@ -25,6 +25,8 @@ pub mod figures;
 #[cfg(feature = "parts")]
 pub mod meshes;
 #[cfg(feature = "parts")]
+mod other;
+#[cfg(feature = "parts")]
 pub mod pictures;
 #[cfg(feature = "parts")]
 pub mod scans;

@@ -1,9 +1,9 @@
 //! Pictures for other parts, unpacked by the part that holds the decoders.
 
-use js_sys::{Array, Function, Promise, Reflect, Uint8Array};
+use js_sys::{Array, Function, Uint8Array};
 use wasm_bindgen::prelude::*;
-use wasm_bindgen_futures::JsFuture;
 
+use super::other;
 use super::task::Part;
 use crate::pictures::Picture;
 
@@ -12,12 +12,8 @@ use crate::pictures::Picture;
 /// # Errors
 /// In words: why the file gives no picture, or that the part could not be loaded.
 pub(super) async fn unpacked(packed: &[u8], load: &Function) -> Result<Picture, JsValue> {
-    let part: Promise = load
-        .call1(&JsValue::NULL, &Part::Pictures.name().into())?
-        .unchecked_into();
-    let part = JsFuture::from(part).await?;
-    let decode: Function = Reflect::get(&part, &"decode".into())?.unchecked_into();
-    let found = decode.call1(&part, &Uint8Array::from(packed))?;
+    let packed = Uint8Array::from(packed);
+    let found = other::call(load, Part::Pictures, "decode", &packed).await?;
     let found: Array = found.dyn_into()?;
     let side = |index: u32| found.get(index).as_f64().unwrap_or_default() as u32;
     let pixels: Uint8Array = found.get(3).dyn_into()?;
