@@ -271,8 +271,8 @@ impl Stepping<'_> {
         }
     }
 
-    /// What the edges of the vertices that move ask for. Takes note of the vertices that may have an edge to be flipped:
-    /// most steps leave nearly all edges as they are.
+    /// What the edges of the vertices that move ask for. Takes note of the vertices that may have an edge to be
+    /// flipped: most steps leave nearly all edges as they are.
     fn asked(&mut self) -> Asked {
         let mut asked = Asked::default();
         let mut fan = Vec::new();

@@ -156,9 +156,9 @@ fn is_near(way: &[Vec3], places: &[Vec3], tolerance: f32) -> bool {
         && way.iter().all(|pos| away(pos, places) <= tolerance)
 }
 
-/// The curve that a gesture draws in the plane of the picture, as a tool in its own frame: its middle is the origin, and
-/// what faced the viewer faces along its z axis. It is as thick as a rod of the size in the hand. `None` of a gesture
-/// without length.
+/// The curve that a gesture draws in the plane of the picture, as a tool in its own frame: its middle is the origin,
+/// and what faced the viewer faces along its z axis. It is as thick as a rod of the size in the hand. `None` of a
+/// gesture without length.
 pub(super) fn form(hand: &HeldTool, touches: &[Touch], camera: &Camera) -> Option<ToolShape> {
     let radius = HeldTool::THICKNESS * hand.size;
     let way: Vec<Vec3> = touches.iter().map(|touch| touch.pos).collect();

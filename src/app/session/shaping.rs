@@ -103,7 +103,8 @@ impl Session {
         })))
     }
 
-    /// Puts a drawn curve, a mesh, or the clay as it stands, among the tools of the clay and takes it in hand: one step of undo.
+    /// Puts a drawn curve, a mesh, or the clay as it stands, among the tools of the clay and takes it in hand: one step
+    /// of undo.
     pub(super) fn take_own_tool(&mut self, shape: ToolShape, name: &str) {
         let Some(clay) = self.clay().cloned() else {
             return;
@@ -259,8 +260,8 @@ impl Session {
     }
 
     /// The places of tools in the clay's list, and the edit that puts those there that have none yet: in place of some
-    /// that no other stroke than that of the index uses, or behind the others. A curve, a mesh and a baked clay give way to
-    /// what has their form alone. `None` if all places are taken.
+    /// that no other stroke than that of the index uses, or behind the others. A curve, a mesh and a baked clay give
+    /// way to what has their form alone. `None` if all places are taken.
     fn places_of_tools(
         &self,
         clay: &Clay,
