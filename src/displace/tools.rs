@@ -3,6 +3,8 @@
 use glam::{Quat, Vec3};
 use std::f32::consts::TAU;
 
+use crate::math::Aabb;
+
 /// Most tools of a `sweep`.
 pub const MAX_TOOLS: usize = 4;
 /// Most tools of a `sweep` with their mirror images.
@@ -351,17 +353,16 @@ impl ToolShape {
     /// Half of its longest side, in the lengths of its numbers.
     pub fn half_side(&self) -> f32 {
         match self {
-            Self::Ball { radius } => *radius,
-            Self::Ellipsoid { radii } => radii.max_element(),
-            Self::Capsule { radius, length } => 0.5 * length + radius,
             Self::Box { half, .. } => half.max_element(),
-            Self::Torus { ring, radius } => ring + radius,
             Self::Curve { points, radius } => {
-                let low = points.iter().copied().reduce(Vec3::min).unwrap_or_default();
-                let high = points.iter().copied().reduce(Vec3::max).unwrap_or_default();
-                0.5 * (high - low).max_element() + radius
+                let sides = Aabb::from_points(points.iter().copied()).size();
+                0.5 * sides.max_element() + radius
             }
             Self::Mesh { longest, .. } | Self::Clay { longest, .. } => 0.5 * longest,
+            Self::Ball { .. }
+            | Self::Ellipsoid { .. }
+            | Self::Capsule { .. }
+            | Self::Torus { .. } => self.farthest(),
         }
     }
 

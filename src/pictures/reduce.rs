@@ -5,16 +5,13 @@ use std::sync::LazyLock;
 use super::picture::Picture;
 use crate::math::linear_from_srgb;
 
-/// The sRGB curve in tables: a picture has millions of values.
+/// The sRGB curve backwards, in a table: a picture has millions of values.
 struct Curve {
-    /// Linear light of each byte.
-    linear: [f32; 256],
     /// Linear light from which on the next byte is the nearest.
     borders: [f32; 255],
 }
 
 static CURVE: LazyLock<Curve> = LazyLock::new(|| {
-    let linear: [f32; 256] = std::array::from_fn(|byte| linear_from_srgb(byte as u8));
     let borders = std::array::from_fn(|byte| {
         let between = (byte as f64 + 0.5) / 255.0;
         match between <= 0.04045 {
@@ -22,7 +19,7 @@ static CURVE: LazyLock<Curve> = LazyLock::new(|| {
             false => libm::pow((between + 0.055) / 1.055, 2.4) as f32,
         }
     });
-    Curve { linear, borders }
+    Curve { borders }
 });
 
 impl Curve {
@@ -67,7 +64,7 @@ pub fn reduced(picture: &Picture, size: [u32; 2]) -> Picture {
                     let weight = height * part * f32::from(*a);
                     cover += weight;
                     for (sum, byte) in light.iter_mut().zip([r, g, b]) {
-                        *sum += curve.linear[usize::from(*byte)] * weight;
+                        *sum += linear_from_srgb(*byte) * weight;
                     }
                 }
             }

@@ -448,15 +448,6 @@ impl Window {
         self.click("Place sweep");
     }
 
-    /// Chooses an entry of a list that stands in the bar over the picture.
-    fn choose(&mut self, list: &str, entry: &str) {
-        let lists = self.harness.get_by_role_and_label(Role::ComboBox, list);
-        lists.click();
-        self.steps(3);
-        self.harness.get_by_label(entry).click();
-        self.steps(3);
-    }
-
     /// Waits until a drag has become a sweep, which puts the tool away, and gives the last sweep.
     fn wait_for_sweep(&mut self) -> fabrica::document::PlacedTemplate {
         let patience = clock() + 60.0;

@@ -17,12 +17,7 @@ fn open() -> Window {
 impl Window {
     /// Takes a style from the list.
     fn choose_style(&mut self, title: &str) {
-        let list = self
-            .harness
-            .get_by_role_and_label(Role::ComboBox, "Drawn as");
-        list.click();
-        self.steps(3);
-        self.click(title);
+        self.choose("Drawn as", title);
     }
 
     fn style(&self) -> Style {

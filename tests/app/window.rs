@@ -497,6 +497,16 @@ impl Window {
         self.steps(3);
     }
 
+    /// Chooses an entry of a list that opens.
+    pub(crate) fn choose(&mut self, list: &str, entry: &str) {
+        let list = self
+            .harness
+            .get_by_role_and_label(egui::accesskit::Role::ComboBox, list);
+        list.click();
+        self.steps(3);
+        self.click(entry);
+    }
+
     pub(crate) fn document(&self) -> Document {
         self.harness.state().document()
     }

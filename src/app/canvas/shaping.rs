@@ -428,14 +428,14 @@ fn ring(view: &Projection, middle: Vec3, radius: f32) -> Vec<Vec3> {
 
 /// The drawn curves, meshes and baked clays among the tools of the clay or of the sweeps, each once, and what is held.
 fn own_shapes(session: &Session) -> Vec<&ToolShape> {
-    let own: Box<dyn Iterator<Item = &ToolShape>> = if session.is_sweeping() {
-        Box::new(swept_shapes(session))
+    let own: Vec<&ToolShape> = if session.is_sweeping() {
+        swept_shapes(session).collect()
     } else {
         let tools = session.clay().into_iter().flat_map(|clay| &clay.tools);
-        Box::new(tools.filter_map(|tool| tool.shape.as_ref()))
+        tools.filter_map(|tool| tool.shape.as_ref()).collect()
     };
     let mut shapes: Vec<&ToolShape> = Vec::new();
-    for shape in own.chain(&session.hand().own) {
+    for shape in own.into_iter().chain(&session.hand().own) {
         let is_known = |known: &&ToolShape| known.has_form_of(shape);
         if !HeldTool::has_plain_form(shape) && !shapes.iter().any(is_known) {
             shapes.push(shape);

@@ -1,4 +1,4 @@
-//! What the tool that shapes a clay is called, in the panel and over the picture.
+//! What the tool that shapes a clay or draws a sweep is called, in the panel and over the picture.
 
 use crate::app::session::{HeldTool, StrokeWay};
 use crate::app::words::clay::w;

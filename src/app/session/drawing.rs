@@ -3,7 +3,7 @@
 
 use glam::{Quat, Vec3};
 
-use super::gesture::{bounds, form, gesture};
+use super::gesture::{form, gesture};
 use super::hand::{HandCommand, HeldTool, StrokeWay, Touch};
 use super::selection::Selection;
 use super::session::{Session, Tab};
@@ -13,7 +13,7 @@ use crate::displace::COAT;
 use crate::document::{
     Camera, ClayKey, Edit, PathKey, SweepTool, SweepTools, TemplateKind, ToolShape,
 };
-use crate::math::Placement;
+use crate::math::{Aabb, Placement};
 
 /// Size of the tool and width of its coating when it is first taken in hand, parts of what the picture shows across its
 /// shorter side.
@@ -36,6 +36,7 @@ impl Session {
                 touches,
                 is_over,
             } => match self.tool() {
+                _ if way == StrokeWay::Form && self.has_hand() => self.draw_form(&touches, is_over),
                 Tool::Clay => self.draw_stroke(way, &touches, is_over),
                 Tool::Place(TemplateKind::Sweep) => self.draw_sweep(way, &touches, is_over),
                 _ => (self.drawn, self.drawn_stroke) = (None, None),
@@ -67,22 +68,32 @@ impl Session {
         }
     }
 
+    /// Takes the way of a hand that draws a tool. At its end the tool is in the hand; on a clay it is among the tools
+    /// of the document, too.
+    fn draw_form(&mut self, touches: &[Touch], is_over: bool) {
+        if !is_over {
+            return;
+        }
+        let Some(form) = form(self.hand(), touches, &self.camera) else {
+            return;
+        };
+        let hand = self.hand().formed(form.half_side());
+        if self.is_sweeping() {
+            self.hold(HeldTool {
+                own: Some(form),
+                ..hand
+            });
+        } else {
+            self.clay_hand = hand;
+            self.take_own_tool(form, "Draw a tool");
+        }
+    }
+
     /// Takes the way of a hand that draws a sweep, as far as it has come. At its end the tool is put away and the
     /// template is selected. The whole gesture is one step of undo.
     fn draw_sweep(&mut self, way: StrokeWay, touches: &[Touch], is_over: bool) {
-        let hand = self.hand().clone();
-        if way == StrokeWay::Form {
-            let form = form(&hand, touches, &self.camera).filter(|_| is_over);
-            if let Some(form) = form {
-                self.hold(HeldTool {
-                    own: Some(form.clone()),
-                    ..hand.formed(form.half_side())
-                });
-            }
-            return;
-        }
         let drawn = self.drawn.take();
-        let Some((placement, tools)) = swept(&hand, way, touches, &self.camera) else {
+        let Some((placement, tools)) = swept(self.hand(), way, touches, &self.camera) else {
             self.drawn = drawn.filter(|_| !is_over);
             return;
         };
@@ -132,13 +143,13 @@ fn swept(
         let reach = pose.scale as f32 * shape.farthest() + coat;
         [-reach, reach].map(|reach| pose.place.as_vec3() + reach)
     });
-    let [mut low, mut high] = bounds(&ends.collect::<Vec<_>>());
+    let mut reached = Aabb::from_points(ends);
     for axis in (0..3).filter(|&axis| hand.mirror[axis]) {
-        high[axis] = high[axis].max(-low[axis]);
-        low[axis] = -high[axis];
+        reached.max[axis] = reached.max[axis].max(-reached.min[axis]);
+        reached.min[axis] = -reached.max[axis];
     }
-    let at = 0.5 * (low + high);
-    let size = told_in_sides(high - low, &shape, coat);
+    let at = reached.center();
+    let size = told_in_sides(reached.size(), &shape, coat);
     let part = 1.0 / size.min_element();
     let rounded = |x: f32| (x / (0.1 * ROUNDED)).round() * (0.1 * ROUNDED);
     let mut shape = shape.scaled(part);
@@ -325,7 +336,12 @@ mod tests {
         session.run(Command::StartPlacing(TemplateKind::Sweep), 0.0);
         let hand = session.hand().clone();
         assert!(hand.mirror == [false; 3] && hand.size < 0.11, "{hand:?}");
-        session.draw_sweep(StrokeWay::Form, &moved(Vec3::new(0.3, 0.0, 0.1)), true);
+        let draw = HandCommand::Draw {
+            way: StrokeWay::Form,
+            touches: moved(Vec3::new(0.3, 0.0, 0.1)).to_vec(),
+            is_over: true,
+        };
+        session.run(Command::Hand(draw), 0.0);
         let own = session.hand().own.clone();
         assert!(matches!(own, Some(ToolShape::Curve { .. })), "{own:?}");
         assert!(session.shown().templates.is_empty(), "only a tool");

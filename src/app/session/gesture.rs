@@ -7,7 +7,7 @@ use super::hand::{HeldTool, StrokeWay, Touch};
 use super::shape::seen_across;
 use crate::displace::MAX_TOOL_POINTS;
 use crate::document::{Camera, ClayKey, MAX_KEYS, ToolShape};
-use crate::math::{Similarity, simplified_by, smooth_path};
+use crate::math::{Aabb, Similarity, simplified_by, smooth_path};
 
 /// How far the path may be off the gesture: a part of the coating, and subject units (spec/sweepers.md, B.3).
 const OFF_COAT: f32 = 1.0 / 16.0;
@@ -167,21 +167,13 @@ pub(super) fn form(hand: &HeldTool, touches: &[Touch], camera: &Camera) -> Optio
     let [_, _, back] = camera::axes(camera.rotate);
     let turn = Quat::from_rotation_arc(Vec3::Z, back).inverse();
     points.iter_mut().for_each(|point| *point = turn * *point);
-    let [low, high] = bounds(&points);
-    if points.len() < 2 || low.distance(high) < OFF_LEAST {
+    let around = Aabb::from_points(points.iter().copied());
+    if points.len() < 2 || around.size().length() < OFF_LEAST {
         return None;
     }
-    let middle = 0.5 * (low + high);
+    let middle = around.center();
     points.iter_mut().for_each(|point| *point -= middle);
     Some(ToolShape::Curve { points, radius })
-}
-
-/// The corners of the box around points.
-pub(super) fn bounds(points: &[Vec3]) -> [Vec3; 2] {
-    let whole = [Vec3::INFINITY, Vec3::NEG_INFINITY];
-    points
-        .iter()
-        .fold(whole, |[low, high], p| [low.min(*p), high.max(*p)])
 }
 
 /// As few of the points as lie on a path that all others are near to; at most so many (Douglas and Peucker).
@@ -276,9 +268,10 @@ mod tests {
         };
         assert!((3..MAX_TOOL_POINTS).contains(&points.len()), "{points:?}");
         assert_eq!(radius, HeldTool::THICKNESS * hand.size);
-        let [low, high] = bounds(&points);
-        assert!((low + high).abs().max_element() < 1e-5, "about its middle");
-        let sides = high - low;
+        let around = Aabb::from_points(points.iter().copied());
+        let off = around.center().abs().max_element();
+        assert!(off < 5e-6, "about its middle");
+        let sides = around.size();
         assert!(sides.z < 1e-4, "flat: {sides}");
         assert!((sides.x.max(sides.y) - 0.4).abs() < 0.01, "{sides}");
         // Laid on a plane that faces the viewer it is seen as it was drawn.

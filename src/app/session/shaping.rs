@@ -5,7 +5,7 @@ use glam::{Quat, Vec3};
 use std::sync::Arc;
 
 use super::clay::{ClayCommand, Ghost};
-use super::gesture::{Gesture, degrees, form, gesture, thousandths};
+use super::gesture::{Gesture, degrees, gesture, thousandths};
 use super::hand::{HeldTool, StrokeWay, Touch};
 use super::notices::Gravity;
 use super::selection::Selection;
@@ -185,14 +185,6 @@ impl Session {
     /// Takes the way of a hand that shapes the clay. The whole gesture is one step of undo. While strokes are laid down
     /// it is a ghost in the end.
     pub(super) fn draw_stroke(&mut self, way: StrokeWay, touches: &[Touch], is_over: bool) {
-        if way == StrokeWay::Form {
-            let form = form(&self.clay_hand, touches, &self.camera).filter(|_| is_over);
-            if let Some(form) = form {
-                self.clay_hand = self.clay_hand.formed(form.half_side());
-                self.take_own_tool(form, "Draw a tool");
-            }
-            return;
-        }
         let tool = self.tool_in_hand();
         let stroke = stroke(&self.clay_hand, way, touches, &self.camera);
         if self.together.is_on && way != StrokeWay::Smooth {

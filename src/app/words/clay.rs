@@ -62,9 +62,9 @@ words! {
         cube: "Block of clay", "Tonwürfel", "Bloque de arcilla", "黏土块";
         plate: "Plate of clay", "Tonplatte", "Placa de arcilla", "黏土板";
         torus: "Ring of clay", "Tonring", "Anillo de arcilla", "黏土环";
-        key_size: "F held over clay", "F halten über Ton", "F pulsada sobre arcilla", "在黏土上按住 F";
+        key_size: "F held with a tool", "F halten mit Werkzeug", "F pulsada con un instrumento", "持器械时按住 F";
         key_size_does: "Size the tool; with Shift its coating", "Größe des Werkzeugs; mit Umschalt der Mantel", "Tamaño del instrumento; con Mayús el recubrimiento", "调整器械大小；加 Shift 调影响层";
-        key_turn: "R held over clay", "R halten über Ton", "R pulsada sobre arcilla", "在黏土上按住 R";
+        key_turn: "R held with a tool", "R halten mit Werkzeug", "R pulsada con un instrumento", "持器械时按住 R";
         key_turn_does: "Turn the tool", "Werkzeug drehen", "Girar el instrumento", "转动器械";
         key_act: "Enter over clay", "Eingabe über Ton", "Intro sobre arcilla", "在黏土上按回车";
         key_together: "Lay strokes on clay down, or do them again", "Striche auf Ton vormerken oder wieder ausführen", "Dejar previstos los trazos sobre arcilla, o volver a hacerlos", "预置黏土笔划，或恢复直接执行";
