@@ -381,6 +381,9 @@ struct GridTemplate {
     material: u32,
     /// 1 if the map jumps at the faces of the first box.
     is_torn: u32,
+    /// 0 if differences across a box tell how the map changes in it; else a box is asked by the corners of its parts,
+    /// at most so many along each side, and `detail` is half the side of the largest part.
+    parts: u32,
 }
 
 /// How a template moves material: by a bounded shift, out of the cube, rolled about an axis, by a bounded shift that

@@ -19,9 +19,10 @@
 // last step that acts, the progress that it acts until, the number of images of all tools, bits of the axes that are
 // mirrored; then the box outside which nothing moves; then for each image the signs of its axes and its tool (w); then
 // for each tool two rows: its form; its shape and what one through its coating is.
-// A step in the texture: its start and length; a ball that holds the reach of all that moves in it (w: square of the
-// radius); for each tool a ball that holds its reach, rows of the inverse of its pose at the start, its screw (turn and
-// growth, velocity of the origin), its scale.
+// A step in the texture: its start and length, and how many steps before it are as long and go by the same screw; a
+// ball that holds the reach of all that moves in it (w: square of the radius); for each tool a ball that holds its
+// reach, rows of the inverse of its pose at the start, its screw (turn and growth, velocity of the origin), its scale.
+// The screw of a tool alone is that of its own place at the start.
 //
 // One processor that draws in our tests (lavapipe) ends all loops of a pixel after 65,535 turns in all. So one turn of
 // a loop passes over 64 steps whose reach does not hold the point, or 8, and evaluates one field in those that do. A
@@ -110,6 +111,29 @@ fn screw_linear(v: vec3f, screw: vec4f) -> vec3f {
     return screw.w * v + cross(screw.xyz, v);
 }
 
+/// A point as a tool has it within a step.
+struct Posed {
+    /// Velocity of what goes with the tool at the point.
+    velocity: vec3f,
+    /// Where the point lay to the tool as the point lies to it now, when the step began.
+    place: vec3f,
+    /// How much larger the tool is than at the start of the step.
+    growth: f32,
+}
+
+/// A point as a tool has it, so long after the start of a step. `screw` and `moves`: rows of the tool in the step.
+fn posed_in_step(p: vec3f, since: f32, screw: vec4f, moves: vec4f) -> Posed {
+    let velocity = screw_linear(p, screw) + moves.xyz;
+    // exp(-since L) p and e^(growth since) by their series: a step is short.
+    let back = -since;
+    let third = velocity + back / 4.0 * screw_linear(velocity, screw);
+    let second = velocity + back / 3.0 * screw_linear(third, screw);
+    let then = p + back * (velocity + back / 2.0 * screw_linear(second, screw));
+    let grown = screw.w * since;
+    let growth = 1.0 + grown * (1.0 + grown / 2.0 * (1.0 + grown / 3.0 * (1.0 + grown / 4.0)));
+    return Posed(velocity, then, growth);
+}
+
 /// From where the flow of one step has brought a point, from `lasts` after the step's start. `at`: texel of the step.
 fn sweep_back(end: vec3f, at: u32, lasts: f32, held: u32, images: u32, mirror: u32, tools: u32) -> vec3f {
     let of_tools = held + SWEEP_HEAD + images;
@@ -142,20 +166,13 @@ fn sweep_back(end: vec3f, at: u32, lasts: f32, held: u32, images: u32, mirror: u
         let kind = templates.pool[of_tools + 2u * tool + 1u];
         let screw = sweep_texel(first + 4u);
         let moves = sweep_texel(first + 5u);
-        let velocity = screw_linear(p, screw) + moves.xyz;
-        // exp(-since L) p and e^(growth since) by their series: a step is short.
-        let back = -since;
-        let third = velocity + back / 4.0 * screw_linear(velocity, screw);
-        let second = velocity + back / 3.0 * screw_linear(third, screw);
-        let then = p + back * (velocity + back / 2.0 * screw_linear(second, screw));
-        let own = vec4f(then, 1.0);
+        let posed = posed_in_step(p, since, screw, moves);
+        let own = vec4f(posed.place, 1.0);
         let place = vec3f(
             dot(sweep_texel(first + 1u), own),
             dot(sweep_texel(first + 2u), own),
             dot(sweep_texel(first + 3u), own),
         );
-        let grown = screw.w * since;
-        let scale = moves.w * (1.0 + grown * (1.0 + grown / 2.0 * (1.0 + grown / 3.0 * (1.0 + grown / 4.0))));
         let shape = u32(kind.x);
         var distance = tool_distance(place, shape, form);
         if shape == CURVE_SHAPE {
@@ -170,10 +187,10 @@ fn sweep_back(end: vec3f, at: u32, lasts: f32, held: u32, images: u32, mirror: u
             piece = 0u;
             nearest = NO_END;
         }
-        let field = tool_field(scale * distance * kind.y);
+        let field = tool_field(moves.w * posed.growth * distance * kind.y);
         fields += field;
         left *= 1.0 - field;
-        driven += field * (of_image.xyz * velocity);
+        driven += field * (of_image.xyz * posed.velocity);
         ahead &= ahead - 1u;
         if ahead == 0u {
             let flow = select(driven * ((1.0 - left) / max(fields, 1e-30)), vec3f(0.0), stays);
@@ -192,6 +209,70 @@ fn sweep_back(end: vec3f, at: u32, lasts: f32, held: u32, images: u32, mirror: u
     return total * (-lasts / 6.0);
 }
 
+/// Where the flow has come from through steps that follow each other.
+struct SweptRun {
+    /// The way back, metric.
+    moved: vec3f,
+    /// The last of the steps before them.
+    last: i32,
+}
+
+/// The flow of a tool alone, which is no curve and has no image, back from a step that may move a point, as far as the
+/// tool moves it and goes by one screw. All goes on in the tool's own place at the start of a step: there the screw is
+/// the same for all these steps, and what is read for the first of them serves the others. `form` and `kind`: the rows
+/// of the tool.
+fn sweep_back_alone(end: vec3f, last: i32, progress: f32, head: vec4f, form: vec4f, kind: vec4f) -> SweptRun {
+    let step_rows = SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS;
+    let step = u32(head.x) + u32(last) * step_rows;
+    let time = sweep_texel(step);
+    let screw = sweep_texel(step + SWEEP_STEP_ROWS + 4u);
+    let moves = sweep_texel(step + SWEEP_STEP_ROWS + 5u);
+    let place = vec4f(end, 1.0);
+    var p = vec3f(
+        dot(sweep_texel(step + SWEEP_STEP_ROWS + 1u), place),
+        dot(sweep_texel(step + SWEEP_STEP_ROWS + 2u), place),
+        dot(sweep_texel(step + SWEEP_STEP_ROWS + 3u), place),
+    );
+    var scale = moves.w;
+    var lasts = min(time.y, progress - time.x);
+    var done = 0u;
+    var is_moved = false;
+    loop {
+        var at = p;
+        var since = lasts;
+        var total = vec3f(0.0);
+        for (var stage = 0u; stage < 4u; stage++) {
+            let posed = posed_in_step(at, since, screw, moves);
+            let distance = scale * posed.growth * tool_distance(posed.place, u32(kind.x), form);
+            let flow = tool_field(distance * kind.y) * posed.velocity;
+            total += select(1.0, 2.0, stage == 1u || stage == 2u) * flow;
+            let next = select(0.5, 1.0, stage == 2u) * lasts;
+            at = p - next * flow;
+            since = lasts - next;
+        }
+        let goes_on = any(total != vec3f(0.0));
+        is_moved = is_moved || goes_on;
+        p -= lasts / 6.0 * total;
+        if !goes_on || done == u32(time.z) {
+            break;
+        }
+        // In the tool's place at the start of the step before, which is as long.
+        let before = posed_in_step(p, -time.y, screw, moves);
+        p = before.place;
+        scale *= before.growth;
+        lasts = time.y;
+        done++;
+    }
+    // The rows are a turn back, divided by the scale.
+    let first = step - done * step_rows + SWEEP_STEP_ROWS;
+    let row_x = sweep_texel(first + 1u);
+    let row_y = sweep_texel(first + 2u);
+    let row_z = sweep_texel(first + 3u);
+    let from_origin = (p - vec3f(row_x.w, row_y.w, row_z.w)) * scale * scale;
+    let start = row_x.xyz * from_origin.x + row_y.xyz * from_origin.y + row_z.xyz * from_origin.z;
+    return SweptRun(select(vec3f(0.0), start - end, is_moved), last - i32(done) - 1);
+}
+
 /// p0: progress. `held`: index in the pool, 0 if nothing moves.
 fn displace_sweep(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displaced {
     if held == 0u || p0.x <= 0.0 {
@@ -206,6 +287,9 @@ fn displace_sweep(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Dis
     let tools = u32(head.w);
     let images = u32(acting.z);
     let step_rows = SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * tools;
+    let form = templates.pool[held + SWEEP_HEAD + images];
+    let kind = templates.pool[held + SWEEP_HEAD + images + 1u];
+    let is_alone = images == 1u && u32(kind.x) != CURVE_SHAPE;
     var last = i32(acting.x);
     // Constraints by coordinate do a part of it.
     if p0.x < acting.y {
@@ -217,11 +301,17 @@ fn displace_sweep(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Dis
         if i < 0 {
             break;
         }
-        let at = u32(head.x) + u32(i) * step_rows;
-        let time = sweep_texel(at);
-        let lasts = min(time.y, p0.x - time.x);
-        moved += sweep_back(start + moved, at, lasts, held, images, u32(acting.w), tools);
-        last = i - 1;
+        if is_alone {
+            let run = sweep_back_alone(start + moved, i, p0.x, head, form, kind);
+            moved += run.moved;
+            last = run.last;
+        } else {
+            let at = u32(head.x) + u32(i) * step_rows;
+            let time = sweep_texel(at);
+            let lasts = min(time.y, p0.x - time.x);
+            moved += sweep_back(start + moved, at, lasts, held, images, u32(acting.w), tools);
+            last = i - 1;
+        }
     }
     return Displaced(q + moved / size, 1.0);
 }

@@ -14,6 +14,10 @@
 
 /// Texels in a row of `sweeps`.
 const SWEEP_ROW: u32 = 1024u;
+/// The number of the shape that is an ellipsoid.
+const ELLIPSOID_SHAPE: u32 = 1u;
+/// The number of the shape that is a ring.
+const TORUS_SHAPE: u32 = 4u;
 /// The number of the shape that is a curve.
 const CURVE_SHAPE: u32 = 5u;
 /// The number of the shape that is a mesh.
@@ -102,27 +106,21 @@ fn grid_distance(p: vec3f, form: vec4f) -> f32 {
     return mix(two.x, two.y, part.x) * form.z + length(at - near) * cell;
 }
 
-/// Distance to a tool that is no curve, 0 inside. `shape` and `form` as src/displace/sweeping.rs packs them.
+/// Distance to a tool that is no curve, 0 inside. `shape` and `form` as src/displace/sweeping.rs packs them: balls,
+/// rods and blocks are all that lies within a radius (w) of a block with sharp edges.
 fn tool_distance(p: vec3f, shape: u32, form: vec4f) -> f32 {
     let q = abs(p);
     switch shape {
-        case 1u: {
+        case ELLIPSOID_SHAPE: {
             return ellipsoid_distance(q, form.xyz);
-        }
-        case 2u: {
-            return max(length(vec3f(q.xy, max(q.z - form.y, 0.0))) - form.x, 0.0);
-        }
-        case 3u: {
-            return max(length(max(q - form.xyz, vec3f(0.0))) - form.w, 0.0);
-        }
-        case 4u: {
-            return max(length(vec2f(length(q.xy) - form.y, q.z)) - form.x, 0.0);
         }
         case MESH_SHAPE: {
             return grid_distance(p, form);
         }
         default: {
-            return max(length(q) - form.x, 0.0);
+            let from_ring = vec3f(length(q.xy) - form.x, 0.0, q.z);
+            let from_core = select(max(q - form.xyz, vec3f(0.0)), from_ring, shape == TORUS_SHAPE);
+            return max(length(from_core) - form.w, 0.0);
         }
     }
 }

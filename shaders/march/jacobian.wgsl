@@ -39,7 +39,7 @@ fn differential_at(pos: vec3f, forward: vec3f, edge: Sample, mask: u32) -> Diffe
         let has_base = KEEPS_TISSUE && (drawn_kinds & DRAWN_CURVES) == 0u;
         var turn = select(4u, select(0u, 1u, has_base), path != 0u);
         rounds_splines = true;
-        let may_leap = KEEPS_TISSUE || (drawn_kinds & ~(DRAWN_SWEEP | DRAWN_CURVES | DRAWN_GRIDS)) != 0u;
+        let may_leap = KEEPS_TISSUE || (drawn_kinds & ~(DRAWN_SWEEP | DRAWN_CURVES | DRAWN_OF_SWEEPS)) != 0u;
         var is_back = false;
         while turn < 4u {
             let toward = select(forward, -forward, is_back) * map_step();

@@ -169,12 +169,13 @@ fn met_triangle(at: Spot, crossing: TriangleCrossing, mask: u32) -> Met {
     return Met(true, at, crossing.triangle, crossing.weights, crossing.is_front, segment, mask);
 }
 
-/// Where a straight way ends that begins in a cell which no template reaches: as far as there is none.
+/// Where a straight way ends that begins in a cell which no template reaches: as far as there is none, and no empty
+/// cell. A short way meets few boxes of the tree, and most rays end in the first cells that hold something.
 fn end_of_unmoved(ray: Ray, first_exit: f32) -> f32 {
     var t_out = first_exit;
     loop {
         let cell = cell_on_ray(ray, t_out);
-        if t_out >= ray.t_end || (cell.x != 0u && drawn_kinds != 0u) {
+        if t_out >= ray.t_end || cell.y != 0u || (cell.x != 0u && drawn_kinds != 0u) {
             break;
         }
         t_out = max(bitcast<f32>(cell.z), t_out + 0.00002);

@@ -9,10 +9,11 @@
 //
 // A box is carried back through the list. Each template is evaluated at the box's centre and at the middles of its six
 // sides: the differences say how the box is turned and stretched there, the second differences how far from straight
-// that is. Where a template is small against the box that is not enough, and its bound of displacement is used. Where a
-// template is two-valued (the flap lies over what was there before) both readings are followed, each only if the box
-// can hold material of it. Conservative but for details finer than `fineness`, which tests/grid.rs looks for by
-// probing.
+// that is. Where a template is small against the box that is not enough, and its bound of displacement is used. What a
+// sweep presses together comes from far apart, which differences do not show: there the corners of the box's parts say
+// where the box comes from. Where a template is two-valued (the flap lies over what was there before) both readings are
+// followed, each only if the box can hold material of it. Conservative but for details finer than `detail`, which
+// tests/gpu/grid.rs looks for by probing.
 // needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl bind/kept.wgsl displace/compose.wgsl
 
 /// 1 if templates leave tissue alone or give way to it. A pipeline constant.
@@ -38,6 +39,11 @@ override has_kept: u32 = 1u;
 const MAX_WAYS: u32 = 24u;
 /// The continuity may change across the box by this much more than its differences say.
 const CONTINUITY_SAFETY: f32 = 1.5;
+/// Places at which differences across a box are taken: its centre and the middles of its sides.
+const CROSS_PLACES: u32 = 7u;
+/// Where corners of parts of a box are asked, what lies between them comes from so much beyond the box about where they
+/// come from, as a part of its longest side. Found by trying: what is pushed stays within, what turns does not quite.
+const BEYOND_CORNERS: f32 = 0.1;
 
 /// A box on its way back through the list, subject space.
 struct Walk {
@@ -147,6 +153,21 @@ fn own_reading(i: u32, q: vec3f) -> Reading {
     let at = select(q, inside, is_torn);
     let d = displace(kind, at, size, p0, p1, templates.items[i].held);
     return Reading(d.source - at, d.continuity);
+}
+
+/// A place in the box from -1 to 1: the centre, then the middles of the six sides, both of an axis one behind the
+/// other.
+fn place_on_cross(k: u32) -> vec3f {
+    let axis = (k - 1u) / 2u;
+    let side = select(1.0, -1.0, (k & 1u) == 0u);
+    return select(vec3f(0.0), vec3f(side), vec3u(0u, 1u, 2u) == vec3u(axis)) * select(1.0, 0.0, k == 0u);
+}
+
+/// A place in the box from -1 to 1: the centre, then the corners of its parts, so many along each side.
+fn place_on_lattice(k: u32, parts: u32) -> vec3f {
+    let n = parts + 1u;
+    let at = vec3u((k - 1u) % n, ((k - 1u) / n) % n, (k - 1u) / (n * n));
+    return (2.0 * vec3f(at) / f32(parts) - 1.0) * select(1.0, 0.0, k == 0u);
 }
 
 /// Continuity of the reading that the point never moved. For templates with one reading: 1 where the template is torn
@@ -359,7 +380,10 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
             let margin = length(walk.half) * job.items[i].stretch;
             let is_within = job.items[i].material == MATERIAL_WITHIN;
             let is_bent = is_curved(i);
-            var is_coarse = max(across.x, max(across.y, across.z)) > job.items[i].detail;
+            let sides = max(across.x, max(across.y, across.z)) / job.items[i].detail;
+            // Asked by the corners of so many parts along each side; 0 where differences across the box say enough.
+            let parts = select(u32(ceil(max(sides, 1.0))), 0u, job.items[i].parts == 0u || is_bent);
+            var is_coarse = sides > max(f32(job.items[i].parts), 1.0);
             var folds = false;
             if is_bent {
                 folds = is_folded(i, q, walk);
@@ -396,20 +420,58 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                     next.spread += to_subject_extent(i, 0.5 * (high - low));
                 }
             } else {
-                let middle = moved_reading(i, q);
-                next.sum += to_subject_vector(i, middle.moved);
+                let is_by_parts = parts > 0u && !is_coarse;
+                var places = select(CROSS_PLACES, 1u + (parts + 1u) * (parts + 1u) * (parts + 1u), is_by_parts);
+                // Where the box is known to be seen, only what moves on matters.
+                let is_last = is_by_parts && walk.left == 0u;
+                places = select(places, 0u, is_last && is_visible);
+                var middle = Reading(vec3f(0.0), 1.0);
+                var ahead = middle;
                 var change = 0.0;
-                for (var axis = 0u; axis < 3u; axis++) {
-                    let along = select(vec3f(0.0), walk.half, vec3u(0u, 1u, 2u) == vec3u(axis));
-                    let step = to_template_vector(i, along);
-                    let ahead = moved_reading(i, q + step);
-                    let behind = moved_reading(i, q - step);
-                    let difference = to_subject_vector(i, 0.5 * (ahead.moved - behind.moved));
-                    next.side0 += select(vec3f(0.0), difference, axis == 0u);
-                    next.side1 += select(vec3f(0.0), difference, axis == 1u);
-                    next.side2 += select(vec3f(0.0), difference, axis == 2u);
-                    next.spread += abs(to_subject_vector(i, ahead.moved + behind.moved - 2.0 * middle.moved));
-                    change += max(abs(ahead.continuity - middle.continuity), abs(behind.continuity - middle.continuity));
+                var low = vec3f(NO_END);
+                var high = vec3f(-NO_END);
+                // One loop: compilers draw all formulas into each place that asks for them.
+                for (var k = 0u; k < places; k++) {
+                    let on_cross = place_on_cross(k);
+                    let along = walk.half * select(on_cross, place_on_lattice(k, max(parts, 1u)), is_by_parts);
+                    let reading = moved_reading(i, q + to_template_vector(i, along));
+                    if k == 0u {
+                        middle = reading;
+                    } else if is_by_parts {
+                        let origin = along + to_subject_vector(i, reading.moved);
+                        low = min(low, origin);
+                        high = max(high, origin);
+                    } else if (k & 1u) == 1u {
+                        ahead = reading;
+                    } else {
+                        let difference = to_subject_vector(i, 0.5 * (ahead.moved - reading.moved));
+                        let axis = k / 2u - 1u;
+                        next.side0 += select(vec3f(0.0), difference, axis == 0u);
+                        next.side1 += select(vec3f(0.0), difference, axis == 1u);
+                        next.side2 += select(vec3f(0.0), difference, axis == 2u);
+                        next.spread += abs(to_subject_vector(i, ahead.moved + reading.moved - 2.0 * middle.moved));
+                        change += max(
+                            abs(ahead.continuity - middle.continuity),
+                            abs(reading.continuity - middle.continuity),
+                        );
+                    }
+                    if k == 0u && is_last {
+                        // Most boxes with something in them have it in the middle.
+                        let origin = walk.at + walk.sum + to_subject_vector(i, reading.moved);
+                        is_visible = is_visible || meets_visible(origin, vec3f(0.0));
+                        places = select(places, 0u, is_visible);
+                    }
+                }
+                if is_by_parts {
+                    low = min(low, high);
+                    next.sum += 0.5 * (low + high);
+                    next.side0 -= vec3f(walk.half.x, 0.0, 0.0);
+                    next.side1 -= vec3f(0.0, walk.half.y, 0.0);
+                    next.side2 -= vec3f(0.0, 0.0, walk.half.z);
+                    let size = high - low;
+                    next.spread += 0.5 * size + BEYOND_CORNERS * max(size.x, max(size.y, size.z));
+                } else {
+                    next.sum += to_subject_vector(i, middle.moved);
                 }
                 let most = middle.continuity + max(CONTINUITY_SAFETY * change, select(0.0, margin, is_within));
                 has_moved = most >= 0.0;

@@ -6,8 +6,20 @@ use super::kind::TemplateKind;
 use super::spec::{ParamKind, ParamValue};
 use std::fmt::Write as _;
 
-/// Bit of tools that are grids of distances in `drawn_kinds`.
+/// What the sweeps of a document have, in the bits of `drawn_kinds` above those of kinds, so that a program leaves out
+/// the rest: tools that are grids of distances.
 pub const DRAWN_GRIDS: u32 = 1 << 31;
+/// Tools that are ellipsoids.
+pub const DRAWN_ELLIPSOIDS: u32 = 1 << 30;
+/// Tools that are curves, of straight pieces.
+pub const DRAWN_PIECES: u32 = 1 << 29;
+/// A sweep of a tool alone that is no curve and has no image.
+pub const DRAWN_ALONE: u32 = 1 << 28;
+/// A sweep that is none such.
+pub const DRAWN_TOGETHER: u32 = 1 << 27;
+/// All that sweeps may have.
+pub const DRAWN_OF_SWEEPS: u32 =
+    DRAWN_GRIDS | DRAWN_ELLIPSOIDS | DRAWN_PIECES | DRAWN_ALONE | DRAWN_TOGETHER;
 
 /// Floats of the parameters that have a bit for each kind in `MAIN_PARAMETERS`.
 const MAIN_FLOATS: usize = 4;
@@ -20,7 +32,7 @@ pub fn shader_constants() -> String {
     let mut main = [0; MAIN_FLOATS];
     let _ = writeln!(
         text,
-        "/// Bit of tools that are grids of distances in `drawn_kinds`.\nconst DRAWN_GRIDS: u32 = {DRAWN_GRIDS:#x}u;"
+        "/// Bits of what sweeps have in `drawn_kinds`.\nconst DRAWN_OF_SWEEPS: u32 = {DRAWN_OF_SWEEPS:#x}u;"
     );
     for kind in TemplateKind::ALL {
         let (name, number) = (kind.spec().name.to_uppercase(), kind as u32);
@@ -88,6 +100,13 @@ fn main_floats(kind: TemplateKind) -> std::ops::Range<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn kinds_leave_room_for_what_sweeps_have() {
+        for kind in TemplateKind::ALL {
+            assert_eq!(DRAWN_OF_SWEEPS & (1 << kind as u32), 0, "{kind:?}");
+        }
+    }
 
     /// Written out once more, so that a change of a main parameter is meant.
     #[test]

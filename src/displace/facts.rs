@@ -22,6 +22,9 @@ pub struct Reach {
     pub detail: f32,
     /// True if the map jumps at a face of the first box, between displaced material and material at rest.
     pub is_torn: bool,
+    /// Of a map that differences across a box do not tell enough of: a box is asked by the corners of its parts, no
+    /// more than so many along each side, and `detail` is half the side of the largest part. 0 for other maps.
+    pub parts: u32,
     /// Of a map in steps that may be finer than a cell of the skip grid: how far, at most, the displacement at a place
     /// lies from that of the step beside it, along each axis, template space.
     pub ripple: Option<Vec3>,
@@ -62,6 +65,7 @@ impl Reach {
         material: Material::Stays,
         detail: 0.5,
         is_torn: false,
+        parts: 0,
         ripple: None,
     };
 
@@ -86,6 +90,15 @@ impl Reach {
     /// This reach with another `detail`.
     pub(super) fn with_detail(self, detail: f32) -> Self {
         Self { detail, ..self }
+    }
+
+    /// This reach for a map that is asked by corners, see [`Reach::parts`].
+    pub(super) fn by_parts(self, detail: f32, parts: u32) -> Self {
+        Self {
+            detail,
+            parts,
+            ..self
+        }
     }
 
     /// This reach for a map in steps, see [`Reach::ripple`].

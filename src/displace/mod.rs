@@ -79,7 +79,10 @@ mod tools;
 mod twist;
 mod wave;
 
-pub use constants::{DRAWN_GRIDS, shader_constants, without_formula};
+pub use constants::{
+    DRAWN_ALONE, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_OF_SWEEPS, DRAWN_PIECES, DRAWN_TOGETHER,
+    shader_constants, without_formula,
+};
 pub use facts::{
     Amount, Arc, Facts, Given, Grip, Group, Holds, Icon, Material, Mirror, Reach, Samples, Shape,
     Shrinking, Tool,

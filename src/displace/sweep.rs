@@ -3,8 +3,10 @@ use super::spec::{TemplateSpec, number};
 use super::sweeping::Sweeping;
 use glam::Vec3;
 
-/// Half side of a box in which differences still tell how the map changes, in widths of the smallest coating.
-const DETAIL_COATS: f32 = 0.125;
+/// Half side of a part of a box between whose corners a sweep takes nothing beyond where it takes them, as a part of
+/// the width that [`Sweeping::least_width`] tells. Measured on pushed and turning balls and blocks: parts of an eighth
+/// of a coating hold what a push of eight coatings brings, and a turn with a tenth of their size more.
+const DETAIL_WIDTHS: f32 = 1.0 / 14.0;
 
 /// All that is known about sweep besides its formula. It is grabbed at the first of its tools that moves.
 pub(super) const FACTS: Facts = Facts {
@@ -26,13 +28,13 @@ pub(super) const FACTS: Facts = Facts {
         let progress = given.p[0];
         let sweeping = Sweeping::of(given);
         let bounds = sweeping.bounds(progress);
-        let (false, Some(coat)) = (bounds.is_empty(), sweeping.least_coat()) else {
+        let (false, Some(width)) = (bounds.is_empty(), sweeping.least_width()) else {
             return Reach::NONE;
         };
         // Material stays in the union of the reaches.
         let most = (Vec3::splat(sweeping.longest(progress)) / given.size).min(bounds.size());
-        let detail = DETAIL_COATS * coat / given.size.max_element();
-        Reach::shifted(bounds, -most, most).with_detail(detail)
+        let detail = DETAIL_WIDTHS * width / given.size.max_element();
+        Reach::shifted(bounds, -most, most).by_parts(detail, sweeping.most_parts())
     },
     grip: Grip::Number(|given| Sweeping::place(given, given.p[0]), INF),
     icon: Icon::PLAIN,

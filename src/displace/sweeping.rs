@@ -1,6 +1,7 @@
 //! The steps in which the flow of a `sweep` is integrated (spec/sweepers.md, A.3): poses, screws and reach of every
 //! tool in each, found once per edit in 64 bits, and packed for shaders/displace/sweep.wgsl.
 
+use super::constants::{DRAWN_ALONE, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_PIECES, DRAWN_TOGETHER};
 use super::facts::Given;
 use super::mover::{Ball, Mover, counted_in, images_of, spans, wanted_in};
 use super::tools::{PathKey, SweepTool, SweepTools, ToolFile, ToolShape};
@@ -22,7 +23,11 @@ const SHEARED: f64 = 0.14;
 const NODE_BITS: u32 = 6;
 /// What is not there yet holds nothing: as a ball, from which everything is far away. Its number, and its form.
 const NOTHING_NUMBER: usize = 0;
-const NOTHING: [f32; 4] = [-1e6, 0.0, 0.0, 0.0];
+const NOTHING: [f32; 4] = [0.0, 0.0, 0.0, -1e6];
+/// Turns of loops in which a cell of the skip grid may ask a sweep, far below the 65,535 after which lavapipe ends all
+/// loops, and parts of a cell along each side that may be asked about.
+const MOST_TURNS: usize = 12_000;
+const MOST_PARTS: u32 = 3;
 /// Reach is rounded up by this part of it, for floats of 32 bits.
 const ROUNDING: f64 = 1e-5;
 
@@ -51,6 +56,8 @@ fn mover_of(tool: &SweepTool, size: DVec3) -> Option<Mover<'_>> {
 struct Step {
     start: f64,
     end: f64,
+    /// How many steps before this one are as long, and go by the same screws.
+    before: usize,
     /// For each tool what it reaches, its screw, and its pose at the start.
     tools: Vec<(Ball, Screw, Similarity)>,
     /// The longest way of a point of any tool.
@@ -108,7 +115,7 @@ impl<'a> Sweeping<'a> {
             let count = libm::ceil(own + (wanted - own) * part);
             for i in 0..count as usize {
                 let at = |i: usize| from + (to - from) * (i as f64 / count);
-                sweeping.step(at(i), at(i + 1));
+                sweeping.step(at(i), at(i + 1), i);
             }
         }
         sweeping
@@ -203,7 +210,8 @@ impl<'a> Sweeping<'a> {
         [pieces, steps.sum()]
     }
 
-    fn step(&mut self, start: f64, end: f64) {
+    /// Adds a step. `before`: how many steps of the same span come before it.
+    fn step(&mut self, start: f64, end: f64, before: usize) {
         let travel = self.movers.iter().map(|mover| mover.travel(start, end));
         let travel = travel.fold(0.0, f64::max);
         // What is driven by one tool may come into the reach of another on the way.
@@ -222,9 +230,17 @@ impl<'a> Sweeping<'a> {
         self.steps.push(Step {
             start,
             end,
+            before,
             tools: tools.collect(),
             travel,
         });
+    }
+
+    /// True if one tool acts that is no curve, without images: its steps are packed for a way of the shader that is
+    /// shorter.
+    fn is_alone(&self) -> bool {
+        let is_curve = |mover: &Mover<'_>| matches!(mover.shape, ToolShape::Curve { .. });
+        self.movers.len() * self.images().len() == 1 && !self.movers.iter().any(is_curve)
     }
 
     /// Signs of the axes of each image, the tools themselves first.
@@ -338,6 +354,15 @@ impl<'a> Sweeping<'a> {
         widths.map(|width| width as f32).reduce(f32::min)
     }
 
+    /// Parts along each side by whose corners a cell of the skip grid may ask, so that the turns of its loops stay few;
+    /// at least one.
+    pub(crate) fn most_parts(&self) -> u32 {
+        let fields = 4 * self.movers.len() * self.images().len();
+        let turns = self.steps.len() * (fields + 2);
+        let is_few = |parts: &u32| (*parts as usize + 1).pow(3) * turns <= MOST_TURNS;
+        (2..=MOST_PARTS).rev().find(is_few).unwrap_or(1)
+    }
+
     /// Number of [`Sweeping::texels`].
     fn texel_count(&self) -> usize {
         let points: usize = self.movers.iter().map(|m| m.shape.points().len()).sum();
@@ -352,7 +377,8 @@ impl<'a> Sweeping<'a> {
         let mut texels = Vec::with_capacity(self.texel_count());
         let with = |v: DVec3, w: f64| v.as_vec3().extend(w as f32).to_array();
         for step in &self.steps {
-            texels.push([step.start as f32, (step.end - step.start) as f32, 0.0, 0.0]);
+            let lasts = step.end - step.start;
+            texels.push([step.start as f32, lasts as f32, step.before as f32, 0.0]);
             texels.push(packed_ball(self.reach(std::slice::from_ref(step))));
             for (ball, screw, pose) in &step.tools {
                 texels.push(packed_ball(Some(*ball)));
@@ -363,6 +389,11 @@ impl<'a> Sweeping<'a> {
                 for (row, place) in rows.into_iter().zip(inverse.place.to_array()) {
                     texels.push(with(row, place));
                 }
+                let screw = if self.is_alone() {
+                    screw.within(pose)
+                } else {
+                    *screw
+                };
                 texels.push(with(screw.turn, screw.growth));
                 texels.push(with(screw.way, pose.scale));
             }
@@ -458,11 +489,11 @@ impl<'a> Sweeping<'a> {
                     let core = (*half - round).max(Vec3::ZERO);
                     (core * unit).extend(round * unit).to_array()
                 }
-                ToolShape::Ball { radius } => [radius * unit, 0.0, 0.0, 0.0],
+                ToolShape::Ball { radius } => [0.0, 0.0, 0.0, radius * unit],
                 ToolShape::Capsule { radius, length } => {
-                    [radius * unit, 0.5 * length * unit, 0.0, 0.0]
+                    [0.0, 0.0, 0.5 * length * unit, radius * unit]
                 }
-                ToolShape::Torus { ring, radius } => [radius * unit, ring * unit, 0.0, 0.0],
+                ToolShape::Torus { ring, radius } => [ring * unit, 0.0, 0.0, radius * unit],
             };
             points += count;
             rows.push(form);
@@ -473,11 +504,25 @@ impl<'a> Sweeping<'a> {
 }
 
 impl Sweeping<'_> {
-    /// The numbers of the tools' shapes in what [`Sweeping::rows`] gave.
-    pub(crate) fn shapes_in(rows: &[[f32; 4]]) -> impl Iterator<Item = usize> + '_ {
+    /// What the sweep of these rows ([`Sweeping::rows`]) has, as bits of `drawn_kinds`; nothing if nothing moves.
+    pub(crate) fn drawn_in(rows: &[[f32; 4]]) -> u32 {
         let number = |row: usize, part: usize| rows.get(row).map_or(0, |row| row[part] as usize);
         let (tools, images) = (number(0, 3), number(1, 2));
-        (0..tools).map(move |tool| number(HEAD_ROWS + images + 2 * tool + 1, 0))
+        let shapes = (0..tools).map(|tool| number(HEAD_ROWS + images + 2 * tool + 1, 0));
+        let of_shapes = shapes.fold(0, |bits, shape| {
+            bits | match shape {
+                ToolShape::ELLIPSOID => DRAWN_ELLIPSOIDS,
+                ToolShape::CURVE => DRAWN_PIECES,
+                ToolShape::MESH => DRAWN_GRIDS,
+                _ => 0,
+            }
+        });
+        let acting = match images {
+            0 => 0,
+            1 if of_shapes & DRAWN_PIECES == 0 => DRAWN_ALONE,
+            _ => DRAWN_TOGETHER,
+        };
+        of_shapes | acting
     }
 }
 

@@ -253,6 +253,10 @@ impl ToolShape {
     pub const NAMES: [&'static str; 6] = Self::first_names();
     /// The number of a mesh.
     pub const MESH: usize = 6;
+    /// [`ToolShape::number`] of an ellipsoid.
+    pub const ELLIPSOID: usize = 1;
+    /// [`ToolShape::number`] of a curve.
+    pub const CURVE: usize = 5;
     /// Longest side of what is a grid of distances, where nothing is said of it.
     pub const LONGEST: f32 = 0.4;
 
@@ -305,11 +309,11 @@ impl ToolShape {
     pub fn number(&self) -> usize {
         match self {
             Self::Ball { .. } => 0,
-            Self::Ellipsoid { .. } => 1,
+            Self::Ellipsoid { .. } => Self::ELLIPSOID,
             Self::Capsule { .. } => 2,
             Self::Box { .. } => 3,
             Self::Torus { .. } => 4,
-            Self::Curve { .. } => 5,
+            Self::Curve { .. } => Self::CURVE,
             Self::Mesh { .. } => Self::MESH,
             Self::Clay { .. } => 7,
         }

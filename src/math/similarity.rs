@@ -149,6 +149,16 @@ impl Screw {
         pos * self.growth + self.turn.cross(pos) + self.way
     }
 
+    /// The same motion as it is seen from a pose that stands still.
+    pub fn within(&self, pose: &Similarity) -> Self {
+        let back = pose.turn.conjugate();
+        Self {
+            growth: self.growth,
+            turn: back * self.turn,
+            way: back * self.velocity(pose.place) / pose.scale,
+        }
+    }
+
     /// Where it leads from the identity in a time of 1.
     pub fn exp(&self) -> Similarity {
         let angle = self.turn.length();

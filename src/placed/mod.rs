@@ -24,6 +24,6 @@ pub use handle::{Handle, dragged, dragged_along_ray, handle, set_main};
 pub use icon::{ICON_COLUMNS, ICON_PX, icon, icon_document, icon_kinds};
 pub use joined::joined_sweep;
 pub use reach::{
-    bent_lattice, least_coat, missed_points, reach, solved_points, sweep_rows, sweep_shapes,
+    bent_lattice, drawn_in_sweep, least_coat, missed_points, reach, solved_points, sweep_rows,
     sweep_texels, tool_ways,
 };

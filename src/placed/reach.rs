@@ -71,9 +71,10 @@ pub fn sweep_rows(
     Sweeping::of(&given).rows(given.p[0], first, grid_of)
 }
 
-/// The numbers of the shapes of a sweep's tools, from its rows ([`sweep_rows`]).
-pub fn sweep_shapes(rows: &[[f32; 4]]) -> impl Iterator<Item = usize> + '_ {
-    Sweeping::shapes_in(rows)
+/// What a sweep has, as bits of `drawn_kinds` ([`DRAWN_OF_SWEEPS`](crate::displace::DRAWN_OF_SWEEPS)), from its rows
+/// ([`sweep_rows`]).
+pub fn drawn_in_sweep(rows: &[[f32; 4]]) -> u32 {
+    Sweeping::drawn_in(rows)
 }
 
 /// The steps of a `sweep` as its shader reads them; none of other kinds.

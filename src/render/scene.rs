@@ -1,7 +1,7 @@
 //! Everything that is ready to be drawn: an illustration on a subject, on the GPU.
 
 use crate::data::{Resources, Sheet};
-use crate::displace::DRAWN_GRIDS;
+use crate::displace::DRAWN_OF_SWEEPS;
 use crate::document::{Illustration, Style};
 use crate::math::Aabb;
 use crate::placed::least_coat;
@@ -347,7 +347,7 @@ impl Scene {
     /// True where drawing the map from a texture may be faster: it holds several formulas, or a sweep whose coatings
     /// are wide enough, and no tissue is kept, which the texture knows nothing of.
     pub(crate) fn may_bake(&self) -> bool {
-        let kinds = self.inputs.templates.get().drawn_kinds() & !DRAWN_GRIDS;
+        let kinds = self.inputs.templates.get().drawn_kinds() & !DRAWN_OF_SWEEPS;
         let kinds = kinds.count_ones();
         (kinds >= LEAST_BAKED_KINDS || self.least_coat.is_some())
             && self

@@ -2,15 +2,17 @@
 //! names every template that matters at any point of it.
 
 use crate::gpu::{gpu, studio_of};
+use crate::long::long_or;
 use crate::scatter::Random;
 use fabrica::data::{Grid, Resources, Volume, Voxels};
 use fabrica::document::{
-    Illustration, PlacedTemplate, TemplateKind, TemplateMode, Transfer, TransferPoint,
+    Document, Illustration, PlacedTemplate, TemplateKind, TemplateMode, Transfer, TransferPoint,
 };
 use fabrica::math::Placement;
 use fabrica::render::gpu_types::Templates;
 use fabrica::render::{Probe, Studio};
 use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
+use serde_json::json;
 use std::collections::BTreeMap;
 
 /// Voxels of the test subject.
@@ -312,6 +314,75 @@ fn nothing_is_hidden_by_lists_and_groups() {
     }
     tally.report("lists");
     tally.holds("lists");
+}
+
+/// The corners of a cell's parts say what a sweep brings into the cell, where differences across it say too little:
+/// what is pressed together by a tool comes from far apart.
+#[test]
+fn nothing_is_hidden_by_sweeps() {
+    let gpu = gpu();
+    let volume = volume();
+    let studio = studio_of(gpu, &volume, true);
+    let probe = pollster::block_on(Probe::new(gpu)).expect("the probe");
+    let mut random = Random(0x5EE9);
+    let (mut tally, mut leapt) = (Tally::default(), 0);
+    for round in 0..long_or(120, 30) {
+        let mut list = crate::sweeps::sweeps(&mut random, round % 6);
+        for template in list.as_array_mut().into_iter().flatten() {
+            if round % 3 == 0 {
+                // One tool alone, whose coating is wide enough for the cells to be told apart.
+                template["params"]["mirror"] = json!("");
+                template["params"]["tools"]
+                    .as_array_mut()
+                    .expect("tools")
+                    .truncate(1);
+                template["params"]["tools"][0]["coat"] = json!(0.4);
+                template["size"] = json!([0.7, 0.7, 0.7]);
+            }
+            template.as_object_mut().expect("a template").remove("mode");
+        }
+        let document = json!({ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": list });
+        let document = Document::from_value(document).expect("a document");
+        let swept = illustration(document.illustration().templates.clone());
+        let cells = pollster::block_on(studio.grid_cells(&swept));
+        let cells = cells.expect("a readback").expect("this studio has a grid");
+        let size = cells.cell_size * cells.count.as_vec3();
+        let point = |_| cells.bounds_min + size * random.vector(0.0, 1.0);
+        let points: Vec<Vec3> = (0..6000).map(point).collect();
+        let none = Resources::default();
+        let samples = pollster::block_on(probe.samples(&swept, &none, &points)).expect("samples");
+        for (point, sample) in points.iter().zip(&samples) {
+            let [mask, way] = cells.at(*point).expect("a cell");
+            tally.points += 1;
+            if value_at(&volume, sample.pos_in_rest).is_some_and(|v| v > 81.0) {
+                tally.seen += 1;
+                if way != 0 {
+                    let found = format!("{list}\n at {point}: {sample:?} in a cell {way} from any");
+                    tally.hidden.push(found);
+                }
+            }
+            if mask == 0 && sample.pos_in_rest != *point {
+                tally
+                    .wrongly_masked
+                    .push(format!("{list}\n at {point}: {sample:?}"));
+            }
+        }
+        let count = |is: fn([u32; 2]) -> bool| cells.cells.iter().filter(|cell| is(**cell)).count();
+        leapt += count(|[mask, way]| mask != 0 && way != 0);
+        tally.reached_cells += count(|[mask, _]| mask != 0);
+        tally.visible_cells += count(|[_, way]| way == 0);
+        tally.cells += cells.cells.len();
+    }
+    tally.report("sweeps");
+    println!(
+        "{leapt} of {} cells that are reached are leapt over",
+        tally.reached_cells
+    );
+    tally.holds("sweeps");
+    assert!(
+        leapt * 5 > tally.reached_cells,
+        "cells about tools are told apart"
+    );
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn tool(random: &mut Random, shape: usize) -> Value {
 }
 
 /// One to three sweeps of one to four tools, the first of the shape of this number.
-fn sweeps(random: &mut Random, shape: usize) -> Value {
+pub(crate) fn sweeps(random: &mut Random, shape: usize) -> Value {
     let count = 1 + random.index(3);
     let each = (0..count).map(|i| {
         let mirror = ["", "", "", "x", "y", "z", "xz"][random.index(7)];

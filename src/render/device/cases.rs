@@ -2,12 +2,15 @@
 //! see that a branch is never taken: a document with one alignment would have each formula compiled two hundred times.
 //! So what a document does not use is left out of the text.
 
-use crate::displace::{DRAWN_GRIDS, Holds, TemplateKind, without_formula};
+use crate::displace::{
+    DRAWN_ALONE, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_PIECES, DRAWN_TOGETHER, Holds, TemplateKind,
+    without_formula,
+};
 
 /// What the documents have that a program is put together for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Cases {
-    /// Bit k: templates of kind k occur; [`DRAWN_GRIDS`]: some tools are grids (as `Templates::drawn_kinds`).
+    /// Bit k: templates of kind k occur; upper bits: what sweeps have (as `Templates::drawn_kinds`).
     pub kinds: u32,
     /// Bit m: tissue is kept by align mode m (`KeptTissue::align_mode`).
     pub align_modes: u32,
@@ -91,12 +94,36 @@ const fn body(
     }
 }
 
-pub(super) const BODIES: [Body; 9] = [
+pub(super) const BODIES: [Body; 13] = [
     body(
         "displace/tools.wgsl",
         "grid_distance",
         |cases| cases.kinds & DRAWN_GRIDS != 0,
         "return length(p);",
+    ),
+    body(
+        "displace/tools.wgsl",
+        "ellipsoid_distance",
+        |cases| cases.kinds & DRAWN_ELLIPSOIDS != 0,
+        "return length(q);",
+    ),
+    body(
+        "displace/tools.wgsl",
+        "pieces_distance",
+        |cases| cases.kinds & DRAWN_PIECES != 0,
+        "return length(q);",
+    ),
+    body(
+        "displace/sweep.wgsl",
+        "sweep_back",
+        |cases| cases.kinds & DRAWN_TOGETHER != 0,
+        "return end;",
+    ),
+    body(
+        "displace/sweep.wgsl",
+        "sweep_back_alone",
+        |cases| cases.kinds & DRAWN_ALONE != 0,
+        "return SweptRun(end, last - 1);",
     ),
     body(
         "march/asked.wgsl",

@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use super::laid::Laid;
 use crate::data::{Carver, FieldSamples, Resources};
-use crate::displace::DRAWN_GRIDS;
 use crate::document::{
     MAX_FIELDS, MAX_OBJECTS, MAX_PARAM_FLOATS, PlacedTemplate, TemplateData, TemplateKind,
-    TemplateMode, ToolShape,
+    TemplateMode,
 };
-use crate::placed::{solved_points, sweep_rows, sweep_shapes, sweep_texels};
+use crate::placed::{drawn_in_sweep, solved_points, sweep_rows, sweep_texels};
 use glam::{Affine3A, Mat3A, Vec3A};
 
 /// Format of the transfer table.
@@ -167,24 +166,25 @@ impl Templates {
         packed
     }
 
-    /// Bit k: templates of kind k occur; bit 0: some lie along a curve; [`DRAWN_GRIDS`]: some tools are grids.
+    /// Bit k: templates of kind k occur; bit 0: some lie along a curve; [`DRAWN_OF_SWEEPS`]: what sweeps have.
     /// Pipelines are made for this.
+    ///
+    /// [`DRAWN_OF_SWEEPS`]: crate::displace::DRAWN_OF_SWEEPS
     pub fn drawn_kinds(&self) -> u32 {
         let used = self.items.iter().take(self.count as usize);
         used.fold(0, |bits, t| {
             let kind = 1u32.checked_shl(t.kind).unwrap_or(0);
-            let grids = if self.has_grids(t) { DRAWN_GRIDS } else { 0 };
-            bits | kind | u32::from(t.curve != 0) | grids
+            bits | kind | u32::from(t.curve != 0) | self.drawn_in_sweep(t)
         })
     }
 
-    /// True if a tool of a sweep is a grid of distances.
-    fn has_grids(&self, template: &Template) -> bool {
+    /// What a sweep has; nothing of other kinds.
+    fn drawn_in_sweep(&self, template: &Template) -> u32 {
         if template.kind != TemplateKind::Sweep as u32 || template.held == 0 {
-            return false;
+            return 0;
         }
         let held = self.pool.get(template.held as usize..).unwrap_or(&[]);
-        sweep_shapes(held).any(|shape| shape == ToolShape::MESH)
+        drawn_in_sweep(held)
     }
 }
 
@@ -973,8 +973,11 @@ pub struct GridTemplate {
     pub material: u32,
     /// 1 if the map jumps at the faces of the first box.
     pub is_torn: u32,
+    /// 0 if differences across a box tell how the map changes in it; else the most parts along each side by whose
+    /// corners a box is asked, and `detail` is half the side of the largest part.
+    pub parts: u32,
     /// To the end of the row.
-    pub padding: [u32; 3],
+    pub padding: [u32; 2],
 }
 
 /// [`GridTemplate::material`]: moved by a bounded shift.

@@ -486,7 +486,8 @@ fn item(template: &PlacedTemplate, resources: &Resources, bounds: Aabb) -> GridT
         longest,
         material,
         is_torn: u32::from(reach.is_torn),
-        padding: [0; 3],
+        parts: reach.parts,
+        padding: [0; 2],
     }
 }
 
