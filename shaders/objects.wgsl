@@ -33,22 +33,20 @@ fn object_on(origin: vec3f, way: vec3f, after: f32, until: f32) -> ObjectCrossin
         let along = apply_linear(map, way);
         let inverse_along = inverse_of(along);
         let nodes_at = objects.items[k].nodes_at;
-        let low = bitcast<vec3f>(object_texel(nodes_at).xyz);
-        let high = bitcast<vec3f>(object_texel(nodes_at + 1u).xyz);
+        let root = tree_root(object_texel(nodes_at), object_texel(nodes_at + 1u));
         let from_after = apply_affine(map, origin + way * after);
-        let span = part_in_box(from_after, inverse_along, low, high, found.part - after);
+        let high = root.low + NODE_PARTS * root.part;
+        let span = part_in_box(from_after, inverse_along, root.low, high, found.part - after);
         // From where the line enters the box: numbers far away from a small object are too coarse.
         let first = after + span.x;
         let start = from_after + along * span.x;
-        var node = select(objects.items[k].node_count, 0u, span.x <= span.y);
-        while node < objects.items[k].node_count {
-            let least = object_texel(nodes_at + 2u * node);
-            let most = object_texel(nodes_at + 2u * node + 1u);
-            let inner = part_in_box(start, inverse_along, bitcast<vec3f>(least.xyz), bitcast<vec3f>(most.xyz), found.part - first);
-            let count = most.w & 15u;
+        var index = select(objects.items[k].node_count, 0u, span.x <= span.y);
+        while index < objects.items[k].node_count {
+            let node = tree_node(object_texel(nodes_at + ROOT_TEXELS + index), index, root);
+            let inner = part_in_box(start, inverse_along, node.low, node.high, found.part - first);
             let is_met = inner.x <= inner.y;
-            var left = select(0u, count, is_met);
-            var triangle = most.w >> 4u;
+            var left = select(0u, node.count, is_met);
+            var triangle = node.first;
             while left > 0u {
                 left--;
                 let crossing = line_crossing(
@@ -64,7 +62,7 @@ fn object_on(origin: vec3f, way: vec3f, after: f32, until: f32) -> ObjectCrossin
                 }
                 triangle++;
             }
-            node = max(select(least.w, node + 1u, is_met && count == 0u), node + 1u);
+            index = max(select(node.skip, index + 1u, is_met), index + 1u);
         }
     }
     return found;

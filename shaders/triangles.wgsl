@@ -13,6 +13,51 @@ const INSIDE_SHARE: f32 = 0.75;
 /// through between two of them.
 const EDGE_SLACK: f32 = 1e-6;
 
+/// Texels of a tree before its nodes: the lowest and the highest corner of the box of all.
+const ROOT_TEXELS: u32 = 2u;
+/// Parts of that box along each axis in which the boxes of nodes are told.
+const NODE_PARTS: f32 = 65535.0;
+/// Marks a leaf.
+const LEAF: u32 = 0x80000000u;
+
+/// The box of a tree.
+struct TreeRoot {
+    low: vec3f,
+    /// Sides of a part.
+    part: vec3f,
+}
+
+/// A node of a tree.
+struct TreeNode {
+    low: vec3f,
+    high: vec3f,
+    /// The node that follows if this one is left out.
+    skip: u32,
+    /// The first of its triangles and how many there are: 0 in nodes that are no leaf, whose first child is the next.
+    first: u32,
+    count: u32,
+}
+
+/// The box of a tree by its two texels.
+fn tree_root(low: vec4u, high: vec4u) -> TreeRoot {
+    let from_corner = bitcast<vec3f>(low.xyz);
+    return TreeRoot(from_corner, (bitcast<vec3f>(high.xyz) - from_corner) / NODE_PARTS);
+}
+
+/// A node by its texel (src/render/pack/triangles.rs) and index.
+fn tree_node(texel: vec4u, index: u32, root: TreeRoot) -> TreeNode {
+    let low = vec3u(texel.x & 0xffffu, texel.x >> 16u, texel.y & 0xffffu);
+    let high = vec3u(texel.y >> 16u, texel.z & 0xffffu, texel.z >> 16u);
+    let is_leaf = (texel.w & LEAF) != 0u;
+    return TreeNode(
+        root.low + vec3f(low) * root.part,
+        root.low + vec3f(high) * root.part,
+        select(texel.w, index + 1u, is_leaf),
+        (texel.w & ~LEAF) >> 4u,
+        select(0u, texel.w & 15u, is_leaf),
+    );
+}
+
 /// Where a line crosses the plane of a triangle.
 struct LineCrossing {
     /// False if the line passes beside the triangle, or the triangle lies before its start.
@@ -55,9 +100,12 @@ fn inverse_of(way: vec3f) -> vec3f {
 
 /// Linear RGB at a point of a triangle of these weights, from the packed sRGB colours of its corners.
 fn color_between(packed: vec3u, weights: vec3f) -> vec3f {
+    // Of one colour one corner is enough.
+    let is_one = packed.x == packed.y && packed.y == packed.z;
+    let shares = select(weights, vec3f(1.0, 0.0, 0.0), is_one);
     var sum = vec3f(0.0);
-    for (var corner = 0u; corner < 3u; corner++) {
-        sum += linear_from_srgb(unpack4x8unorm(packed[corner]).rgb) * weights[corner];
+    for (var corner = select(3u, 1u, is_one); corner > 0u; corner--) {
+        sum += linear_from_srgb(unpack4x8unorm(packed[corner - 1u]).rgb) * shares[corner - 1u];
     }
     return sum;
 }

@@ -21,5 +21,12 @@ fn mesh_cover(at: Material) -> f32 {
     let is_there = at.continuity >= 0.0 && all(uvw >= vec3f(0.0)) && all(uvw <= vec3f(1.0));
     let thin = 1.0 - smoothstep(0.4 * subject.field_detail, 1.2 * subject.field_detail, abs(depth));
     let full = smoothstep(-0.3 * subject.field_detail, 0.7 * subject.field_detail, depth);
-    return select(0.0, max(thin * 0.5, full * f32(is_filled_near(at.pos, depth))), is_there);
+    // Most places that are asked lie outside: they end the loop before it begins.
+    var filled = 0u;
+    var asks = is_there && full > 0.0;
+    while asks {
+        asks = false;
+        filled = is_filled_near(at.pos, depth);
+    }
+    return select(0.0, max(thin * 0.5, full * f32(filled)), is_there);
 }

@@ -474,9 +474,44 @@ fn is_lid_of_shell(triangle: u32) -> bool {
     return owner >= LID && mesh_look.segments[owner & ~LID].kind == BODY_THICK;
 }
 
+/// Goes straight on, from empty cells to cells that hold something, to the next triangle or as far as no template
+/// reaches. All of it can be done by `next_met`, with much more ado: most rays begin so, and many end so.
+fn next_straight(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) -> Met {
+    var met = met_nothing((*walk).here, 0u);
+    var is_straight = (*walk).mask == 0u && mesh_look.has_shells == 0u && !((*walk).is_at_eye && ray.t_start <= 0.0);
+    while is_straight {
+        let t = (*walk).here.t;
+        let cell = cell_on_ray(ray, t);
+        let is_empty = cell.y != 0u && has_grid != 0u && grid.is_used != 0u;
+        is_straight = t < ray.t_end && *steps < MAX_STEPS && (is_empty || cell.x == 0u || drawn_kinds == 0u);
+        if is_straight {
+            (*steps)++;
+        }
+        var t_next = max(bitcast<f32>(cell.z), t + 0.00002);
+        var crossing = TriangleCrossing(NO_TRIANGLE, 1.0, vec3f(0.0), false);
+        var searches = is_straight && !is_empty;
+        while searches {
+            searches = false;
+            t_next = end_of_unmoved(ray, bitcast<f32>(cell.z));
+            let start = ray.origin + ray.dir * t;
+            crossing = first_crossing(start, ray.origin + ray.dir * t_next, (*walk).skipped, true);
+        }
+        if is_straight {
+            let is_crossed = crossing.triangle != NO_TRIANGLE;
+            (*walk).here = unmoved_spot(ray, select(t_next, mix(t, t_next, crossing.part), is_crossed));
+            (*walk).skipped = crossing.triangle;
+            if is_crossed {
+                met = met_triangle((*walk).here, crossing, 0u);
+                is_straight = false;
+            }
+        }
+    }
+    return met;
+}
+
 /// Marches to the next thing that the ray meets.
 fn next_met(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) -> Met {
-    var met = met_nothing((*walk).here, 0u);
+    var met = next_straight(ray, walk, steps);
     var errand: Errand;
     errand.task = select(PLANS, STARTS, (*walk).is_at_eye && ray.t_start <= 0.0);
     errand.mask = 0xffffffffu;

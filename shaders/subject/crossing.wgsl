@@ -14,15 +14,14 @@ fn first_crossing(start: vec3f, end: vec3f, skipped: u32, sees_shells: bool) -> 
     let way = end - start;
     let inverse_way = inverse_of(way);
     var found = TriangleCrossing(NO_TRIANGLE, 1.0, vec3f(0.0), false);
-    var node = 0u;
-    while node < subject.node_count {
-        let low = mesh_texel(2u * node);
-        let high = mesh_texel(2u * node + 1u);
-        let span = part_in_box(start, inverse_way, bitcast<vec3f>(low.xyz), bitcast<vec3f>(high.xyz), found.part);
-        let count = high.w & 15u;
+    let root = mesh_root();
+    var index = 0u;
+    while index < subject.node_count {
+        let node = mesh_node(index, root);
+        let span = part_in_box(start, inverse_way, node.low, node.high, found.part);
         let is_met = span.x <= span.y;
-        var left = select(0u, count, is_met);
-        var triangle = high.w >> 4u;
+        var left = select(0u, node.count, is_met);
+        var triangle = node.first;
         while left > 0u {
             left--;
             let crossing = crossing_of(triangle, start, way);
@@ -33,7 +32,7 @@ fn first_crossing(start: vec3f, end: vec3f, skipped: u32, sees_shells: bool) -> 
             }
             triangle++;
         }
-        node = select(low.w, node + 1u, is_met && count == 0u);
+        index = select(node.skip, index + 1u, is_met);
     }
     return found;
 }

@@ -2,7 +2,8 @@
 // The field of depths is a map to the triangles, never the truth (spec/surfaces.md).
 //
 // Texels of `mesh_texels`:
-//   node        min, node behind its branch | max, first triangle and how many (4 bits, 0 in nodes that are no leaf)
+//   tree        lowest corner of all | highest corner
+//   node        see triangles.wgsl
 //   triangle    for each corner: place, normal | sRGB colours of the corners, owner (8 bits) and opacity (8 bits)
 //   set         two bits for each of 64 segments: how often a place is inside of it
 // needs: types.wgsl affine.wgsl triangles.wgsl bind/subject.wgsl subject/place.wgsl
@@ -19,6 +20,14 @@ fn field_at(rest: vec3f) -> f32 {
 
 fn mesh_texel(index: u32) -> vec4u {
     return textureLoad(mesh_texels, vec2u(index % MESH_ROW, index / MESH_ROW), 0);
+}
+
+fn mesh_root() -> TreeRoot {
+    return tree_root(mesh_texel(0u), mesh_texel(1u));
+}
+
+fn mesh_node(index: u32, root: TreeRoot) -> TreeNode {
+    return tree_node(mesh_texel(ROOT_TEXELS + index), index, root);
 }
 
 /// A triangle met by a line.
@@ -91,15 +100,14 @@ fn set_beside(times: vec4u, place: vec3f, middle: vec3f) -> vec4u {
     let way = middle - place;
     let inverse_way = inverse_of(way);
     var more = array<u32, 4>(times.x, times.y, times.z, times.w);
-    var node = 0u;
-    while node < subject.node_count {
-        let low = mesh_texel(2u * node);
-        let high = mesh_texel(2u * node + 1u);
-        let span = part_in_box(place, inverse_way, bitcast<vec3f>(low.xyz), bitcast<vec3f>(high.xyz), 1.0);
-        let count = high.w & 15u;
+    let root = mesh_root();
+    var index = 0u;
+    while index < subject.node_count {
+        let node = mesh_node(index, root);
+        let span = part_in_box(place, inverse_way, node.low, node.high, 1.0);
         let is_met = span.x <= span.y;
-        var left = select(0u, count, is_met);
-        var triangle = high.w >> 4u;
+        var left = select(0u, node.count, is_met);
+        var triangle = node.first;
         while left > 0u {
             left--;
             let crossing = crossing_of(triangle, place, way);
@@ -114,7 +122,7 @@ fn set_beside(times: vec4u, place: vec3f, middle: vec3f) -> vec4u {
             }
             triangle++;
         }
-        node = select(low.w, node + 1u, is_met && count == 0u);
+        index = select(node.skip, index + 1u, is_met);
     }
     return vec4u(more[0], more[1], more[2], more[3]);
 }
@@ -197,15 +205,14 @@ fn nearest_on(triangle: u32, place: vec3f) -> vec3f {
 /// than `within`; w is the distance, or `within`.
 fn to_nearest(rest: vec3f, within: f32, segment: u32) -> vec4f {
     var nearest = vec4f(0.0, 0.0, 0.0, within);
-    var node = 0u;
-    while node < subject.node_count {
-        let low = mesh_texel(2u * node);
-        let high = mesh_texel(2u * node + 1u);
-        let away = clamp(rest, bitcast<vec3f>(low.xyz), bitcast<vec3f>(high.xyz)) - rest;
-        let count = high.w & 15u;
+    let root = mesh_root();
+    var index = 0u;
+    while index < subject.node_count {
+        let node = mesh_node(index, root);
+        let away = clamp(rest, node.low, node.high) - rest;
         let is_near = dot(away, away) < nearest.w * nearest.w;
-        var left = select(0u, count, is_near);
-        var triangle = high.w >> 4u;
+        var left = select(0u, node.count, is_near);
+        var triangle = node.first;
         while left > 0u {
             left--;
             let way = nearest_on(triangle, rest) - rest;
@@ -215,7 +222,7 @@ fn to_nearest(rest: vec3f, within: f32, segment: u32) -> vec4f {
             }
             triangle++;
         }
-        node = select(low.w, node + 1u, is_near && count == 0u);
+        index = select(node.skip, index + 1u, is_near);
     }
     return nearest;
 }

@@ -6,7 +6,7 @@ use glam::{Affine3A, DAffine3, DVec3, Mat3A, Vec3A};
 
 use super::gpu_types::{SceneObject, SceneObjects};
 use super::look::linear_color;
-use super::triangles::{texels_of, texels_of_textures};
+use super::triangles::{texels_of, texels_of_textures, triangles_at};
 use crate::data::{Resources, SubjectFrame, Surface};
 use crate::document::{self, ObjectPlacement};
 
@@ -72,7 +72,6 @@ impl DrawnObjects {
                 drawn.meshes.push((Arc::clone(mesh), has_pictures));
                 drawn.meshes.len() - 1
             });
-            let node_count = mesh.tree.nodes.len() as u32;
             *slot = SceneObject {
                 object_from_subject: object_from_subject(object, mesh, subject).into(),
                 color: color_of(object.color_srgb),
@@ -80,8 +79,8 @@ impl DrawnObjects {
                 opacity: object.opacity,
                 gloss: object.gloss,
                 nodes_at: begin[at],
-                triangles_at: begin[at] + 2 * node_count,
-                node_count,
+                triangles_at: begin[at] + triangles_at(mesh),
+                node_count: mesh.tree.nodes.len() as u32,
                 textures_at: match drawn.meshes[at].1 {
                     true => begin[at] + texels_of(mesh),
                     false => 0,

@@ -5,24 +5,36 @@ use std::ops::Range;
 
 use glam::{Vec2, Vec3};
 
-use crate::data::{Surface, Wrap};
+use crate::data::{Surface, TreeNode, Wrap};
+use crate::math::Aabb;
 use crate::pictures::Picture;
 
-/// Bits of a node that hold the number of triangles in it.
+/// Bits of a leaf that hold the number of triangles in it, and the bit that marks a leaf.
 const COUNT_BITS: u32 = 4;
+const LEAF: u32 = 1 << 31;
+/// Texels of a tree before its nodes: the box that the boxes of the nodes are parts of.
+pub(crate) const ROOT_TEXELS: u32 = 2;
+/// Parts of that box along each axis, to which the boxes of nodes are rounded outwards.
+const NODE_PARTS: f32 = 65535.0;
 
-/// How many texels the tree and the triangles of a mesh take: two per node, then four per triangle.
+/// Where the triangles of a mesh begin among its texels: behind the box of its tree and a texel for each node.
+pub(crate) fn triangles_at(surface: &Surface) -> u32 {
+    ROOT_TEXELS + surface.tree.nodes.len() as u32
+}
+
+/// How many texels the tree and the triangles of a mesh take: four per triangle.
 pub(crate) fn texels_of(surface: &Surface) -> u32 {
-    (2 * surface.tree.nodes.len() + 4 * surface.triangles.len()) as u32
+    triangles_at(surface) + 4 * surface.triangles.len() as u32
 }
 
 /// Items of a piece at most: as many as are packed within a few milliseconds.
 const ITEMS_OF_PIECE: usize = 1 << 14;
 
-/// What a mesh's texels are made of: nodes, triangles, sets of segments, and of its pictures the places of triangles in
-/// them, and for each its header and the pixels of its copies.
+/// What a mesh's texels are made of: the box of its tree, nodes, triangles, sets of segments, and of its pictures the
+/// places of triangles in them, and for each its header and the pixels of its copies.
 #[derive(Clone, Debug)]
 enum Piece {
+    Root,
     Nodes(Range<usize>),
     Triangles(Range<usize>),
     Sets,
@@ -43,7 +55,7 @@ pub(crate) struct MeshTexels {
 impl MeshTexels {
     /// Of a mesh's tree and triangles, `with_sets` its sets of segments behind them, and `with_pictures` its pictures.
     pub(crate) fn of(surface: &Surface, with_sets: bool, with_pictures: bool) -> Self {
-        let mut pieces = Vec::new();
+        let mut pieces = vec![Piece::Root];
         let ranges = |count: usize| {
             let starts = (0..count).step_by(ITEMS_OF_PIECE);
             starts.map(move |start| start..(start + ITEMS_OF_PIECE).min(count))
@@ -95,11 +107,17 @@ impl MeshTexels {
 
     fn pack(&self, surface: &Surface, piece: Piece, texels: &mut Vec<[u32; 4]>) {
         match (piece, &surface.textures) {
+            (Piece::Root, _) => {
+                let root = root_of(surface);
+                texels.extend([with(root.min, 0), with(root.max, 0)]);
+            }
             (Piece::Nodes(range), _) => {
-                for node in &surface.tree.nodes[range] {
-                    texels.push(with(node.bounds.min, node.skip));
-                    texels.push(with(node.bounds.max, node.first << COUNT_BITS | node.count));
-                }
+                let root = root_of(surface);
+                texels.extend(
+                    surface.tree.nodes[range]
+                        .iter()
+                        .map(|n| packed_node(n, root)),
+                );
             }
             (Piece::Triangles(range), _) => range.for_each(|i| pack_triangle(surface, i, texels)),
             (Piece::Sets, _) => texels.extend(
@@ -169,6 +187,38 @@ pub(crate) fn texels_of_textures(surface: &Surface) -> u32 {
 /// Texels of a picture or a copy: four pixels each.
 fn texels_of_copy(copy: &Picture) -> u32 {
     copy.pixels.len().div_ceil(4) as u32
+}
+
+/// The box of all nodes.
+fn root_of(surface: &Surface) -> Aabb {
+    let root = surface.tree.nodes.first();
+    root.map_or(Aabb::from_points([Vec3::ZERO]), |node| node.bounds)
+}
+
+/// A node as one texel: its box in parts of the root's box, 16 bits each (low x, y, z, then high), and what it leads
+/// to: of a leaf its triangles, of others the node behind their branch. Behind a leaf is the next node.
+fn packed_node(node: &TreeNode, root: Aabb) -> [u32; 4] {
+    let parts =
+        |at: Vec3| (at - root.min) / root.size().max(Vec3::splat(f32::MIN_POSITIVE)) * NODE_PARTS;
+    // A hair more than rounding: the shader computes the places anew.
+    let low = (parts(node.bounds.min) - 0.02)
+        .floor()
+        .max(Vec3::ZERO)
+        .as_uvec3();
+    let high = (parts(node.bounds.max) + 0.02)
+        .ceil()
+        .min(Vec3::splat(NODE_PARTS))
+        .as_uvec3();
+    let leads_to = match node.count {
+        0 => node.skip,
+        count => LEAF | node.first << COUNT_BITS | count,
+    };
+    [
+        low.x | low.y << 16,
+        low.z | high.x << 16,
+        high.y | high.z << 16,
+        leads_to,
+    ]
 }
 
 /// A unit vector as its place on the unfolded octahedron, two numbers of 16 bits (Cigolle et al. 2014).

@@ -14,7 +14,7 @@ use crate::render::device::layouts::Layouts;
 use crate::render::device::programs::SubjectShader;
 use crate::render::device::textures::{volume_texture, write_rows, write_slices};
 use crate::render::pack::gpu_types::Subject;
-use crate::render::pack::triangles::{MeshTexels, texels_of, texels_of_textures};
+use crate::render::pack::triangles::{MeshTexels, texels_of, texels_of_textures, triangles_at};
 use crate::render::pack::values::SubjectInfo;
 use glam::{DAffine3, UVec3};
 use half::f16;
@@ -177,7 +177,7 @@ impl MeshTextures {
             mesh_min: surface.frame.bounds.min.extend(0.0).to_array(),
             mesh_max: surface.frame.bounds.max.extend(0.0).to_array(),
             node_count: surface.tree.nodes.len() as u32,
-            triangles_at: 2 * surface.tree.nodes.len() as u32,
+            triangles_at: triangles_at(surface),
             sets_at: texels_of(surface),
             textures_at: match surface.textures {
                 Some(_) => textures_at(surface),
