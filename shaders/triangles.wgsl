@@ -20,14 +20,14 @@ const NODE_PARTS: f32 = 65535.0;
 /// Marks a leaf.
 const LEAF: u32 = 0x80000000u;
 
-/// The box of a tree.
+/// The box over all triangles of a tree.
 struct TreeRoot {
     low: vec3f,
     /// Sides of a part.
     part: vec3f,
 }
 
-/// A node of a tree.
+/// A box over some of a mesh's triangles, as its texel tells it.
 struct TreeNode {
     low: vec3f,
     high: vec3f,

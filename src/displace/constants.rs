@@ -1,25 +1,11 @@
 //! What the shaders know of kinds, as one block of `const` lines: their numbers, their bits in `drawn_kinds`, their
 //! main parameters; and what stands for the formula of a kind that a document does not have.
 
+use super::drawn::DRAWN_OF_SWEEPS;
 use super::facts::Holds;
 use super::kind::TemplateKind;
 use super::spec::{ParamKind, ParamValue};
 use std::fmt::Write as _;
-
-/// What the sweeps of a document have, in the bits of `drawn_kinds` above those of kinds, so that a program leaves out
-/// the rest: tools that are grids of distances.
-pub const DRAWN_GRIDS: u32 = 1 << 31;
-/// Tools that are ellipsoids.
-pub const DRAWN_ELLIPSOIDS: u32 = 1 << 30;
-/// Tools that are curves, of straight pieces.
-pub const DRAWN_PIECES: u32 = 1 << 29;
-/// A sweep of a tool alone that is no curve and has no image.
-pub const DRAWN_ALONE: u32 = 1 << 28;
-/// A sweep that is none such.
-pub const DRAWN_TOGETHER: u32 = 1 << 27;
-/// All that sweeps may have.
-pub const DRAWN_OF_SWEEPS: u32 =
-    DRAWN_GRIDS | DRAWN_ELLIPSOIDS | DRAWN_PIECES | DRAWN_ALONE | DRAWN_TOGETHER;
 
 /// Floats of the parameters that have a bit for each kind in `MAIN_PARAMETERS`.
 const MAIN_FLOATS: usize = 4;

@@ -52,6 +52,7 @@ mod crack;
 mod cut;
 mod cutquad;
 mod dilate;
+mod drawn;
 mod facts;
 mod field;
 mod flap;
@@ -79,9 +80,9 @@ mod tools;
 mod twist;
 mod wave;
 
-pub use constants::{
+pub use constants::{shader_constants, without_formula};
+pub use drawn::{
     DRAWN_ALONE, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_OF_SWEEPS, DRAWN_PIECES, DRAWN_TOGETHER,
-    shader_constants, without_formula,
 };
 pub use facts::{
     Amount, Arc, Facts, Given, Grip, Group, Holds, Icon, Material, Mirror, Reach, Samples, Shape,

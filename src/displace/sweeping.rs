@@ -1,7 +1,7 @@
 //! The steps in which the flow of a `sweep` is integrated (spec/sweepers.md, A.3): poses, screws and reach of every
 //! tool in each, found once per edit in 64 bits, and packed for shaders/displace/sweep.wgsl.
 
-use super::constants::{DRAWN_ALONE, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_PIECES, DRAWN_TOGETHER};
+use super::drawn::{DRAWN_ALONE, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_PIECES, DRAWN_TOGETHER};
 use super::facts::Given;
 use super::mover::{Ball, Mover, counted_in, images_of, spans, wanted_in};
 use super::tools::{PathKey, SweepTool, SweepTools, ToolFile, ToolShape};
@@ -330,6 +330,7 @@ impl<'a> Sweeping<'a> {
     }
 
     /// The smallest coating, subject units.
+    #[cfg(feature = "render")]
     pub(crate) fn least_coat(&self) -> Option<f32> {
         let coats = self.movers.iter().map(|mover| mover.coat as f32);
         coats.reduce(f32::min)

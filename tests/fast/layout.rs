@@ -86,7 +86,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Bodies { items }
         GridTemplate {
             reach0_min, reach0_max, reach1_min, reach1_max, own_min, own_max, shift_min, shift_max,
-            detail, stretch, longest, material, is_torn,
+            detail, stretch, longest, material, is_torn, parts,
         }
         GridJob { origin_min, cell_size, cells, brick_from_rest, bricks, margin, farthest, spread, items }
     }

@@ -1,0 +1,15 @@
+//! What the sweeps of a document have, as bits of `drawn_kinds` above those of kinds: programs leave out the rest.
+
+/// Tools that are grids of distances.
+pub const DRAWN_GRIDS: u32 = 1 << 31;
+/// Tools that are ellipsoids.
+pub const DRAWN_ELLIPSOIDS: u32 = 1 << 30;
+/// Tools that are curves, of straight pieces.
+pub const DRAWN_PIECES: u32 = 1 << 29;
+/// A sweep of a tool alone that is no curve and has no image.
+pub const DRAWN_ALONE: u32 = 1 << 28;
+/// A sweep that is none such.
+pub const DRAWN_TOGETHER: u32 = 1 << 27;
+/// All that sweeps may have.
+pub const DRAWN_OF_SWEEPS: u32 =
+    DRAWN_GRIDS | DRAWN_ELLIPSOIDS | DRAWN_PIECES | DRAWN_ALONE | DRAWN_TOGETHER;
