@@ -1,6 +1,6 @@
 //! A clay is shaped by hand in a real browser, and handed on as a link.
 
-use super::hand::{changed, click, document, drop_files, find, focus, mark, press_with};
+use super::hand::{changed, click, document, drop_files, find, focus, mark, press, press_with};
 use super::harness::{Tab, with_browser};
 use super::parts::{count, small_scan};
 use super::*;
@@ -97,5 +97,48 @@ fn a_dropped_scan_becomes_clay() {
         assert_eq!(changed(&tab, "subject").await, scan);
         tab.settled().await;
         tab.assert_no_complaints().await;
+    });
+}
+
+/// So high that all of the catalogue is seen.
+const HIGH: (u32, u32) = (800, 1700);
+
+/// A sweep is drawn on what is seen, and its link shows the same in another tab.
+#[test]
+fn a_sweep_is_drawn_by_hand_and_handed_on() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let bare =
+            r#"{ "fabrica": 1, "subject": { "builtin": "cube" }, "camera": { "distance": 6 } }"#;
+        let tab = session
+            .coarse_viewer(&format!("#{}", payload(bare)), HIGH)
+            .await;
+        focus(&tab).await;
+        tab.settled().await;
+        let cube = object_part(&tab.picture("sweep_begun").await);
+        click(&tab, "Place sweep").await;
+        let (x, y) = find(&tab, "Picture").await.middle();
+        mark(&tab, "templates").await;
+        tab.drag((x, y), (x + 70.0, y - 90.0), 6).await;
+        let templates = changed(&tab, "templates").await;
+        assert_eq!(templates.as_array().map(Vec::len), Some(1), "{templates}");
+        assert_eq!(templates[0]["kind"], "sweep");
+        // Its handles and its bar go.
+        press(&tab, "Escape").await;
+        tab.settled().await;
+        let swept = object_part(&tab.picture("sweep_drawn").await);
+        let moved = difference(&cube, &swept, WHITE);
+        assert!(moved.mean > 0.5, "tissue has gone along: {moved:?}");
+        tab.assert_no_complaints().await;
+
+        let link: String = tab.eval("window.fabrica.viewer.get_link()").await;
+        tab.page.close().await.expect("the tab closes");
+        let other = session.coarse_viewer(&format!("#{link}"), HIGH).await;
+        focus(&other).await;
+        other.settled().await;
+        assert_eq!(document(&other).await["templates"], templates);
+        let again = object_part(&other.picture("sweep_handed_on").await);
+        let off = difference(&swept, &again, WHITE);
+        assert!(off.mean < 0.2, "the same sweep: {off:?}");
+        other.assert_no_complaints().await;
     });
 }
