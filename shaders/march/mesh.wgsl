@@ -482,7 +482,7 @@ fn next_straight(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u
     while is_straight {
         let t = (*walk).here.t;
         let cell = cell_on_ray(ray, t);
-        let is_empty = cell.y != 0u && has_grid != 0u && grid.is_used != 0u;
+        let is_empty = cell.y != 0u;
         is_straight = t < ray.t_end && *steps < MAX_STEPS && (is_empty || cell.x == 0u || drawn_kinds == 0u);
         if is_straight {
             (*steps)++;

@@ -158,9 +158,10 @@ fn own_reading(i: u32, q: vec3f) -> Reading {
 /// A place in the box from -1 to 1: the centre, then the middles of the six sides, both of an axis one behind the
 /// other.
 fn place_on_cross(k: u32) -> vec3f {
+    // Of the centre it is none of the three.
     let axis = (k - 1u) / 2u;
     let side = select(1.0, -1.0, (k & 1u) == 0u);
-    return select(vec3f(0.0), vec3f(side), vec3u(0u, 1u, 2u) == vec3u(axis)) * select(1.0, 0.0, k == 0u);
+    return select(vec3f(0.0), vec3f(side), vec3u(0u, 1u, 2u) == vec3u(axis));
 }
 
 /// A place in the box from -1 to 1: the centre, then the corners of its parts, so many along each side.
@@ -428,17 +429,20 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                 var middle = Reading(vec3f(0.0), 1.0);
                 var ahead = middle;
                 var change = 0.0;
-                var low = vec3f(NO_END);
-                var high = vec3f(-NO_END);
+                // Where the places come from, seen from the box's centre.
+                var low = vec3f(0.0);
+                var high = vec3f(0.0);
                 // One loop: compilers draw all formulas into each place that asks for them.
                 for (var k = 0u; k < places; k++) {
                     let on_cross = place_on_cross(k);
                     let along = walk.half * select(on_cross, place_on_lattice(k, max(parts, 1u)), is_by_parts);
                     let reading = moved_reading(i, q + to_template_vector(i, along));
+                    let origin = along + to_subject_vector(i, reading.moved);
                     if k == 0u {
                         middle = reading;
+                        low = origin;
+                        high = origin;
                     } else if is_by_parts {
-                        let origin = along + to_subject_vector(i, reading.moved);
                         low = min(low, origin);
                         high = max(high, origin);
                     } else if (k & 1u) == 1u {
@@ -457,13 +461,11 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                     }
                     if k == 0u && is_last {
                         // Most boxes with something in them have it in the middle.
-                        let origin = walk.at + walk.sum + to_subject_vector(i, reading.moved);
-                        is_visible = is_visible || meets_visible(origin, vec3f(0.0));
+                        is_visible = is_visible || meets_visible(walk.at + walk.sum + origin, vec3f(0.0));
                         places = select(places, 0u, is_visible);
                     }
                 }
                 if is_by_parts {
-                    low = min(low, high);
                     next.sum += 0.5 * (low + high);
                     next.side0 -= vec3f(walk.half.x, 0.0, 0.0);
                     next.side1 -= vec3f(0.0, walk.half.y, 0.0);

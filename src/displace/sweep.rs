@@ -7,6 +7,8 @@ use glam::Vec3;
 /// the width that [`Sweeping::least_width`] tells. Measured on pushed and turning balls and blocks: parts of an eighth
 /// of a coating hold what a push of eight coatings brings, and a turn with a tenth of their size more.
 const DETAIL_WIDTHS: f32 = 1.0 / 14.0;
+/// Smaller than any box: of what takes too long to ask, the bound of its shift is taken.
+const NO_DETAIL: f32 = 1e-6;
 
 /// All that is known about sweep besides its formula. It is grabbed at the first of its tools that moves.
 pub(super) const FACTS: Facts = Facts {
@@ -33,8 +35,11 @@ pub(super) const FACTS: Facts = Facts {
         };
         // Material stays in the union of the reaches.
         let most = (Vec3::splat(sweeping.longest(progress)) / given.size).min(bounds.size());
-        let detail = DETAIL_WIDTHS * width / given.size.max_element();
-        Reach::shifted(bounds, -most, most).by_parts(detail, sweeping.most_parts())
+        let (detail, parts) = match sweeping.most_parts() {
+            0 => (NO_DETAIL, 1),
+            parts => (DETAIL_WIDTHS * width / given.size.max_element(), parts),
+        };
+        Reach::shifted(bounds, -most, most).by_parts(detail, parts)
     },
     grip: Grip::Number(|given| Sweeping::place(given, given.p[0]), INF),
     icon: Icon::PLAIN,

@@ -28,6 +28,8 @@ const NOTHING: [f32; 4] = [0.0, 0.0, 0.0, -1e6];
 /// loops, and parts of a cell along each side that may be asked about.
 const MOST_TURNS: usize = 12_000;
 const MOST_PARTS: u32 = 3;
+/// Pieces of a curve that a turn asks about, as in shaders/displace/tools.wgsl.
+const PIECES_AT_ONCE: usize = 4;
 /// Reach is rounded up by this part of it, for floats of 32 bits.
 const ROUNDING: f64 = 1e-5;
 
@@ -356,12 +358,17 @@ impl<'a> Sweeping<'a> {
     }
 
     /// Parts along each side by whose corners a cell of the skip grid may ask, so that the turns of its loops stay few;
-    /// at least one.
+    /// 0 if even the corners of the cell itself take too many.
     pub(crate) fn most_parts(&self) -> u32 {
-        let fields = 4 * self.movers.len() * self.images().len();
-        let turns = self.steps.len() * (fields + 2);
+        // A field takes a turn, or one for each of the pieces of a curve that are asked at once.
+        let of_shape = |mover: &Mover<'_>| {
+            let pieces = mover.shape.points().len().saturating_sub(1);
+            pieces.div_ceil(PIECES_AT_ONCE).max(1)
+        };
+        let of_tools: usize = self.movers.iter().map(of_shape).sum();
+        let turns = self.steps.len() * (4 * of_tools * self.images().len() + 2);
         let is_few = |parts: &u32| (*parts as usize + 1).pow(3) * turns <= MOST_TURNS;
-        (2..=MOST_PARTS).rev().find(is_few).unwrap_or(1)
+        (1..=MOST_PARTS).rev().find(is_few).unwrap_or(0)
     }
 
     /// Number of [`Sweeping::texels`].
@@ -377,6 +384,7 @@ impl<'a> Sweeping<'a> {
     pub(crate) fn texels(&self) -> Vec<[f32; 4]> {
         let mut texels = Vec::with_capacity(self.texel_count());
         let with = |v: DVec3, w: f64| v.as_vec3().extend(w as f32).to_array();
+        let is_alone = self.is_alone();
         for step in &self.steps {
             let lasts = step.end - step.start;
             texels.push([step.start as f32, lasts as f32, step.before as f32, 0.0]);
@@ -390,10 +398,9 @@ impl<'a> Sweeping<'a> {
                 for (row, place) in rows.into_iter().zip(inverse.place.to_array()) {
                     texels.push(with(row, place));
                 }
-                let screw = if self.is_alone() {
-                    screw.within(pose)
-                } else {
-                    *screw
+                let screw = match is_alone {
+                    true => screw.within(pose),
+                    false => *screw,
                 };
                 texels.push(with(screw.turn, screw.growth));
                 texels.push(with(screw.way, pose.scale));

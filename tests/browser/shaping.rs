@@ -1,4 +1,4 @@
-//! A clay is shaped by hand in a real browser, and handed on as a link.
+//! A clay is shaped and a sweep drawn by hand in a real browser, and handed on as a link.
 
 use super::hand::{changed, click, document, drop_files, find, focus, mark, press, press_with};
 use super::harness::{Tab, with_browser};
