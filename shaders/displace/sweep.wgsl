@@ -25,8 +25,8 @@
 // The screw of a tool alone is that of its own place at the start.
 //
 // One processor that draws in our tests (lavapipe) ends all loops of a pixel after 65,535 turns in all. So one turn of
-// a loop passes over 64 steps whose reach does not hold the point, or 8, and evaluates one field in those that do. A
-// loop in a branch that is not taken costs a turn there too: a field has none.
+// a loop passes over 64 steps whose reach does not hold the point, or 8, and evaluates one field in those that do, or
+// four where tools are many. A loop in a branch that is not taken costs a turn there too: a field has none.
 // needs: bind/templates.wgsl displace/frame.wgsl displace/tools.wgsl
 
 /// Steps in a block, and blocks in a block of blocks, as a power of two.
@@ -134,79 +134,112 @@ fn posed_in_step(p: vec3f, since: f32, screw: vec4f, moves: vec4f) -> Posed {
     return Posed(velocity, then, growth);
 }
 
+/// The integration of the flow through one step, between two of its fields.
+struct Flow {
+    /// Where the stage asks, and how long after the step's start.
+    x: vec3f,
+    since: f32,
+    /// The velocities of the stages so far, with their weights.
+    total: vec3f,
+    /// Stage of Runge-Kutta's method: 4 at the end.
+    stage: u32,
+    /// Of the images so far: the sum of fields times velocities, the sum of fields, the product of what is left.
+    driven: vec3f,
+    fields: f32,
+    left: f32,
+    /// Images whose fields the stage still asks for.
+    ahead: u32,
+    /// Of a curve, the distance to its pieces so far.
+    nearest: f32,
+    piece: u32,
+}
+
+/// What stays the same through a step.
+struct SweepStep {
+    end: vec3f,
+    lasts: f32,
+    /// The axes whose mirror plane holds the point: it stays in the plane, to the bit.
+    stays: vec3<bool>,
+    /// The images that may reach the point.
+    near: u32,
+    /// Rows of the images and of the tools in the pool, texel of the step.
+    of_images: u32,
+    of_tools: u32,
+    at: u32,
+}
+
+/// The flow with one field more, or with some pieces of a curve; as it is at the end of the step.
+fn with_field(flow: Flow, step: SweepStep) -> Flow {
+    let of_image = templates.pool[step.of_images + firstTrailingBit(flow.ahead)];
+    let tool = u32(of_image.w);
+    let first = step.at + SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * tool;
+    let form = templates.pool[step.of_tools + 2u * tool];
+    let kind = templates.pool[step.of_tools + 2u * tool + 1u];
+    let screw = sweep_texel(first + 4u);
+    let moves = sweep_texel(first + 5u);
+    let posed = posed_in_step(of_image.xyz * flow.x, flow.since, screw, moves);
+    let own = vec4f(posed.place, 1.0);
+    let place = vec3f(
+        dot(sweep_texel(first + 1u), own),
+        dot(sweep_texel(first + 2u), own),
+        dot(sweep_texel(first + 3u), own),
+    );
+    let shape = u32(kind.x);
+    var next = flow;
+    var distance = tool_distance(place, shape, form);
+    var is_whole = true;
+    if shape == CURVE_SHAPE {
+        let begin = u32(form.y);
+        let last = begin + u32(form.z) - 1u;
+        let nearest = min(flow.nearest, pieces_distance(place, begin + flow.piece, last));
+        is_whole = begin + flow.piece + CURVE_PIECES >= last;
+        distance = max(nearest - form.x, 0.0);
+        next.nearest = select(nearest, NO_END, is_whole);
+        next.piece = select(flow.piece + CURVE_PIECES, 0u, is_whole);
+    }
+    let field = select(0.0, tool_field(moves.w * posed.growth * distance * kind.y), is_whole);
+    next.fields += field;
+    next.left *= 1.0 - field;
+    next.driven += field * (of_image.xyz * posed.velocity);
+    next.ahead &= select(flow.ahead, flow.ahead - 1u, is_whole);
+    if next.ahead == 0u {
+        let velocity = select(next.driven * ((1.0 - next.left) / max(next.fields, 1e-30)), vec3f(0.0), step.stays);
+        let is_middle = flow.stage == 1u || flow.stage == 2u;
+        // A turn may go on beyond the last stage.
+        next.total += select(select(1.0, 2.0, is_middle), 0.0, flow.stage >= 4u) * velocity;
+        let way = select(0.5, 1.0, flow.stage == 2u) * step.lasts;
+        next.x = step.end - way * velocity;
+        next.since = step.lasts - way;
+        next.stage++;
+        next.ahead = step.near;
+        next.fields = 0.0;
+        next.left = 1.0;
+        next.driven = vec3f(0.0);
+    }
+    return next;
+}
+
+/// The flow with three fields more, where loops would take too many turns: all fields of a step of tools that are no
+/// curves are a multiple of four.
+fn with_three_fields(flow: Flow, step: SweepStep) -> Flow {
+    return with_field(with_field(with_field(flow, step), step), step);
+}
+
 /// From where the flow of one step has brought a point, from `lasts` after the step's start. `at`: texel of the step.
 fn sweep_back(end: vec3f, at: u32, lasts: f32, held: u32, images: u32, mirror: u32, tools: u32) -> vec3f {
-    let of_tools = held + SWEEP_HEAD + images;
-    // A point of a mirror plane stays in it, to the bit.
+    let of_images = held + SWEEP_HEAD;
     let planes = (vec3u(mirror) & vec3u(1u, 2u, 4u)) != vec3u(0u);
-    let stays = planes & (end == vec3f(0.0));
-    var x = end;
-    var since = lasts;
-    var total = vec3f(0.0);
-    var stage = 0u;
     // What is driven by one tool comes into the reach of no other within the step: the balls have room for its way.
     let near = sweep_hits(end, at + SWEEP_STEP_ROWS, held, images);
     if near == 0u {
         return vec3f(0.0);
     }
-    var ahead = near;
-    // Of a curve, the distance to its pieces so far.
-    var piece = 0u;
-    var nearest = NO_END;
-    // Of the images so far: the sum of fields, the product of what is left, the sum of fields times velocities.
-    var fields = 0.0;
-    var left = 1.0;
-    var driven = vec3f(0.0);
-    while stage < 4u {
-        let of_image = templates.pool[held + SWEEP_HEAD + firstTrailingBit(ahead)];
-        let tool = u32(of_image.w);
-        let first = at + SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * tool;
-        let p = of_image.xyz * x;
-        let form = templates.pool[of_tools + 2u * tool];
-        let kind = templates.pool[of_tools + 2u * tool + 1u];
-        let screw = sweep_texel(first + 4u);
-        let moves = sweep_texel(first + 5u);
-        let posed = posed_in_step(p, since, screw, moves);
-        let own = vec4f(posed.place, 1.0);
-        let place = vec3f(
-            dot(sweep_texel(first + 1u), own),
-            dot(sweep_texel(first + 2u), own),
-            dot(sweep_texel(first + 3u), own),
-        );
-        let shape = u32(kind.x);
-        var distance = tool_distance(place, shape, form);
-        if shape == CURVE_SHAPE {
-            let begin = u32(form.y);
-            let last = begin + u32(form.z) - 1u;
-            nearest = min(nearest, pieces_distance(place, begin + piece, last));
-            piece += CURVE_PIECES;
-            if begin + piece < last {
-                continue;
-            }
-            distance = max(nearest - form.x, 0.0);
-            piece = 0u;
-            nearest = NO_END;
-        }
-        let field = tool_field(moves.w * posed.growth * distance * kind.y);
-        fields += field;
-        left *= 1.0 - field;
-        driven += field * (of_image.xyz * posed.velocity);
-        ahead &= ahead - 1u;
-        if ahead == 0u {
-            let flow = select(driven * ((1.0 - left) / max(fields, 1e-30)), vec3f(0.0), stays);
-            let is_middle = stage == 1u || stage == 2u;
-            total += select(1.0, 2.0, is_middle) * flow;
-            let next = select(0.5, 1.0, stage == 2u) * lasts;
-            x = end - next * flow;
-            since = lasts - next;
-            stage++;
-            ahead = near;
-            fields = 0.0;
-            left = 1.0;
-            driven = vec3f(0.0);
-        }
+    let step = SweepStep(end, lasts, planes & (end == vec3f(0.0)), near, of_images, of_images + images, at);
+    var flow = Flow(end, lasts, vec3f(0.0), 0u, vec3f(0.0), 0.0, 1.0, near, NO_END, 0u);
+    while flow.stage < 4u {
+        flow = with_three_fields(with_field(flow, step), step);
     }
-    return total * (-lasts / 6.0);
+    return flow.total * (-lasts / 6.0);
 }
 
 /// Where the flow has come from through steps that follow each other.

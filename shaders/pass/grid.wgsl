@@ -459,8 +459,8 @@ fn look_at(center: vec3f, half: vec3f) -> vec2u {
                             abs(reading.continuity - middle.continuity),
                         );
                     }
-                    if k == 0u && is_last {
-                        // Most boxes with something in them have it in the middle.
+                    if is_last {
+                        // Most boxes with something in them have it in the middle, others at a corner.
                         is_visible = is_visible || meets_visible(walk.at + walk.sum + origin, vec3f(0.0));
                         places = select(places, 0u, is_visible);
                     }

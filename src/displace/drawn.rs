@@ -10,6 +10,8 @@ pub const DRAWN_PIECES: u32 = 1 << 29;
 pub const DRAWN_ALONE: u32 = 1 << 28;
 /// A sweep that is none such.
 pub const DRAWN_TOGETHER: u32 = 1 << 27;
+/// A sweep that is none such, and asks for so many fields that several share a turn of a loop.
+pub const DRAWN_CROWDED: u32 = 1 << 26;
 /// All that sweeps may have.
 pub const DRAWN_OF_SWEEPS: u32 =
-    DRAWN_GRIDS | DRAWN_ELLIPSOIDS | DRAWN_PIECES | DRAWN_ALONE | DRAWN_TOGETHER;
+    DRAWN_GRIDS | DRAWN_ELLIPSOIDS | DRAWN_PIECES | DRAWN_ALONE | DRAWN_TOGETHER | DRAWN_CROWDED;

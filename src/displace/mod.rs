@@ -82,7 +82,8 @@ mod wave;
 
 pub use constants::{shader_constants, without_formula};
 pub use drawn::{
-    DRAWN_ALONE, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_OF_SWEEPS, DRAWN_PIECES, DRAWN_TOGETHER,
+    DRAWN_ALONE, DRAWN_CROWDED, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_OF_SWEEPS, DRAWN_PIECES,
+    DRAWN_TOGETHER,
 };
 pub use facts::{
     Amount, Arc, Facts, Given, Grip, Group, Holds, Icon, Material, Mirror, Reach, Samples, Shape,

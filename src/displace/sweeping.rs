@@ -1,7 +1,9 @@
 //! The steps in which the flow of a `sweep` is integrated (spec/sweepers.md, A.3): poses, screws and reach of every
 //! tool in each, found once per edit in 64 bits, and packed for shaders/displace/sweep.wgsl.
 
-use super::drawn::{DRAWN_ALONE, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_PIECES, DRAWN_TOGETHER};
+use super::drawn::{
+    DRAWN_ALONE, DRAWN_CROWDED, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_PIECES, DRAWN_TOGETHER,
+};
 use super::facts::Given;
 use super::mover::{Ball, Mover, counted_in, images_of, spans, wanted_in};
 use super::tools::{PathKey, SweepTool, SweepTools, ToolFile, ToolShape};
@@ -24,10 +26,17 @@ const NODE_BITS: u32 = 6;
 /// What is not there yet holds nothing: as a ball, from which everything is far away. Its number, and its form.
 const NOTHING_NUMBER: usize = 0;
 const NOTHING: [f32; 4] = [0.0, 0.0, 0.0, -1e6];
-/// Turns of loops in which a cell of the skip grid may ask a sweep, far below the 65,535 after which lavapipe ends all
-/// loops, and parts of a cell along each side that may be asked about.
-const MOST_TURNS: usize = 12_000;
+/// Stages of a step: each asks for the field of every tool.
+const STAGES: usize = 4;
+/// Fields that a cell of the skip grid may ask for, and parts of a cell along each side that may be asked about. lavapipe
+/// makes a grid of 48 cells a side of a sweep of a tool alone within 0.3 s so.
+const MOST_FIELDS: usize = 8_192;
 const MOST_PARTS: u32 = 3;
+/// A field of tools that act together takes so much longer than one of a tool alone, as measured.
+const SHARED_WEIGHT: usize = 4;
+/// Fields of a place from which on several are asked in one turn of a loop. A ray asks for some two hundred places, and
+/// lavapipe ends all loops after 65,535 turns.
+const CROWDED: usize = 256;
 /// Pieces of a curve that a turn asks about, as in shaders/displace/tools.wgsl.
 const PIECES_AT_ONCE: usize = 4;
 /// Reach is rounded up by this part of it, for floats of 32 bits.
@@ -357,17 +366,17 @@ impl<'a> Sweeping<'a> {
         widths.map(|width| width as f32).reduce(f32::min)
     }
 
-    /// Parts along each side by whose corners a cell of the skip grid may ask, so that the turns of its loops stay few;
-    /// 0 if even the corners of the cell itself take too many.
+    /// Parts along each side by whose corners a cell of the skip grid may ask, so that an edit is soon shown; 0 if even
+    /// the corners of the cell itself take too long.
     pub(crate) fn most_parts(&self) -> u32 {
-        // A field takes a turn, or one for each of the pieces of a curve that are asked at once.
-        let of_shape = |mover: &Mover<'_>| {
-            let pieces = mover.shape.points().len().saturating_sub(1);
-            pieces.div_ceil(PIECES_AT_ONCE).max(1)
-        };
-        let of_tools: usize = self.movers.iter().map(of_shape).sum();
-        let turns = self.steps.len() * (4 * of_tools * self.images().len() + 2);
-        let is_few = |parts: &u32| (*parts as usize + 1).pow(3) * turns <= MOST_TURNS;
+        let fields: usize = self
+            .movers
+            .iter()
+            .map(|m| turns_of(m.shape.points().len()))
+            .sum();
+        let weight = if self.is_alone() { 1 } else { SHARED_WEIGHT };
+        let of_place = self.steps.len() * STAGES * fields * self.images().len() * weight;
+        let is_few = |parts: &u32| (*parts as usize + 1).pow(3) * of_place <= MOST_FIELDS;
         (1..=MOST_PARTS).rev().find(is_few).unwrap_or(0)
     }
 
@@ -512,26 +521,41 @@ impl<'a> Sweeping<'a> {
 }
 
 impl Sweeping<'_> {
-    /// What the sweep of these rows ([`Sweeping::rows`]) has, as bits of `drawn_kinds`; nothing if nothing moves.
+    /// What the sweep of these rows ([`Sweeping::rows`]) has, as bits of `drawn_kinds`; nothing if nothing moves. The same
+    /// at each progress, so that no program is made while it changes.
     pub(crate) fn drawn_in(rows: &[[f32; 4]]) -> u32 {
         let number = |row: usize, part: usize| rows.get(row).map_or(0, |row| row[part] as usize);
         let (tools, images) = (number(0, 3), number(1, 2));
-        let shapes = (0..tools).map(|tool| number(HEAD_ROWS + images + 2 * tool + 1, 0));
-        let of_shapes = shapes.fold(0, |bits, shape| {
-            bits | match shape {
+        if images == 0 {
+            return 0;
+        }
+        let forms = (0..tools).map(|tool| HEAD_ROWS + images + 2 * tool);
+        let mut bits = 0;
+        let mut fields = 0;
+        for form in forms {
+            let (shape, points) = (number(form + 1, 0), number(form, 2));
+            bits |= match shape {
                 ToolShape::ELLIPSOID => DRAWN_ELLIPSOIDS,
                 ToolShape::CURVE => DRAWN_PIECES,
                 ToolShape::MESH => DRAWN_GRIDS,
                 _ => 0,
-            }
-        });
-        let acting = match images {
-            0 => 0,
-            1 if of_shapes & DRAWN_PIECES == 0 => DRAWN_ALONE,
-            _ => DRAWN_TOGETHER,
-        };
-        of_shapes | acting
+            };
+            fields += turns_of(if shape == ToolShape::CURVE { points } else { 0 });
+        }
+        if images == 1 && bits & DRAWN_PIECES == 0 {
+            return bits | DRAWN_ALONE;
+        }
+        let steps = (number(0, 1) - number(0, 0)) / (STEP_ROWS + TOOL_ROWS * tools);
+        let is_crowded = steps * STAGES * fields * (images / tools) > CROWDED;
+        bits | DRAWN_TOGETHER | if is_crowded { DRAWN_CROWDED } else { 0 }
     }
+}
+
+/// Turns that the field of a tool takes: one, or one for each of the pieces of a curve, so many points, that are asked
+/// at once.
+fn turns_of(points: usize) -> usize {
+    let pieces = points.saturating_sub(1);
+    pieces.div_ceil(PIECES_AT_ONCE).max(1)
 }
 
 /// A ball as the shader takes it: w is the square of its radius; of nothing, a ball that holds no point.

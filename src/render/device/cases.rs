@@ -3,8 +3,8 @@
 //! So what a document does not use is left out of the text.
 
 use crate::displace::{
-    DRAWN_ALONE, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_PIECES, DRAWN_TOGETHER, Holds, TemplateKind,
-    without_formula,
+    DRAWN_ALONE, DRAWN_CROWDED, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_PIECES, DRAWN_TOGETHER, Holds,
+    TemplateKind, without_formula,
 };
 
 /// What the documents have that a program is put together for.
@@ -94,7 +94,7 @@ const fn body(
     }
 }
 
-pub(super) const BODIES: [Body; 13] = [
+pub(super) const BODIES: [Body; 14] = [
     body(
         "displace/tools.wgsl",
         "grid_distance",
@@ -118,6 +118,12 @@ pub(super) const BODIES: [Body; 13] = [
         "sweep_back",
         |cases| cases.kinds & DRAWN_TOGETHER != 0,
         "return end;",
+    ),
+    body(
+        "displace/sweep.wgsl",
+        "with_three_fields",
+        |cases| cases.kinds & DRAWN_CROWDED != 0,
+        "return flow;",
     ),
     body(
         "displace/sweep.wgsl",
