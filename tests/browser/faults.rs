@@ -61,6 +61,7 @@ fn a_fault_in_one_embed_leaves_the_others_running() {
         tab.eval::<bool>(FAULTS).await;
         let stand: [bool; 2] = tab
             .eval("(() => {
+  window.promised = e1.toDataURL().then(() => 'kept', (error) => error.message);
   reader.set = panic;
   let hasThrown = false;
   try { e0.setParam('/camera/fov', 40); } catch { hasThrown = true; }
@@ -69,6 +70,9 @@ fn a_fault_in_one_embed_leaves_the_others_running() {
 })()")
             .await;
         assert_eq!(stand, [true, true]);
+        // What it had promised is refused.
+        let answer: String = tab.eval("promised").await;
+        assert_eq!(answer, "The viewer stopped because of a fault.");
         tab.wait_until("devices.length === 2 && ledger.devices.size === 1", 120)
             .await;
         rests_at(&tab, "e1", 1).await;

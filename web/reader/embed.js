@@ -648,8 +648,11 @@ export class Embed {
     if (this.#told === key) return;
     this.#told = key;
     const { canvas } = this.#parts;
-    const words = own ?? (await this.#engine.reader.describe(this.id, this.#lang));
-    if (this.#told === key && words) canvas.setAttribute("aria-label", words);
+    const describing = own ?? this.#engine.reader.describe(this.id, this.#lang);
+    const words = await Promise.resolve(describing).catch(() => null);
+    if (this.#told !== key) return;
+    if (words === null) this.#told = ""; // The program has stopped; another one is asked.
+    else if (words) canvas.setAttribute("aria-label", words);
   }
 
   // ---- Words in place of the picture ----

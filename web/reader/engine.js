@@ -73,15 +73,24 @@ function attempt(act) {
   }
 }
 
-/** The reader, whose faults are told, with the first argument of the call: mostly a picture. */
-function guarded(reader, tell) {
+/**
+ * The reader, whose faults are told, with the first argument of the call: mostly a picture. What it promises is refused when it
+ * stops: a program that has stopped keeps no promise. `waiting` holds who is refused then.
+ */
+function guarded(reader, waiting, tell) {
+  const promised = (answer) =>
+    new Promise((keep, refuse) => {
+      waiting.add(refuse);
+      answer.then(keep, refuse).finally(() => waiting.delete(refuse));
+    });
   return new Proxy(reader, {
     get(target, name) {
       const found = target[name];
       if (typeof found !== "function") return found;
       return (...args) => {
         try {
-          return found.apply(target, args);
+          const answer = found.apply(target, args);
+          return answer instanceof Promise ? promised(answer) : answer;
         } catch (error) {
           if (isTrap(error)) tell(error, args[0]);
           throw error;
@@ -137,7 +146,8 @@ async function start(part) {
   try {
     const halted = new Promise((_, fail) => (halt = fail));
     const started = Reader.start(() => new Background(), () => made.hear());
-    made.reader = guarded(await Promise.race([started, halted]), (error, id) => made.stop(error, id));
+    const reader = await Promise.race([started, halted]);
+    made.reader = guarded(reader, made.waiting, (error, id) => made.stop(error, id));
   } catch (error) {
     early?.worker.terminate();
     throw error;
@@ -165,6 +175,8 @@ class Engine {
   reader = null;
   /** Ends what it hears of the page. */
   forget = () => {};
+  /** Who waits for what the program has promised: each is called with an error if it stops. */
+  waiting = new Set();
   /** Embeds that have asked for the engine and have not added their picture yet. */
   claims = 0;
   #restarting = Promise.resolve();
@@ -238,6 +250,7 @@ class Engine {
     const own = embeds.some((embed) => embed.id === id) ? [id] : [...(attempt(() => reader.at_work()) ?? [])];
     attempt(() => reader.give_up());
     for (const worker of Background.living) worker.terminate();
+    for (const refuse of this.waiting) refuse(new Error("The viewer stopped because of a fault."));
     const now = seconds();
     faults = [...faults.filter((time) => now - time < MINUTE), now];
     for (const embed of embeds) {
@@ -335,7 +348,10 @@ class Engine {
 
   /** Starts again when the device is lost: the same pictures, the same data. */
   watch() {
-    this.reader.lost().then(() => this.#restart());
+    this.reader.lost().then(
+      () => this.#restart(),
+      () => {}, // It has stopped, and is not started again.
+    );
   }
 
   async #restart() {

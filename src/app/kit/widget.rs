@@ -366,8 +366,9 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     explained(ui, name, &options, current)
 }
 
-/// A choice among a few entries, side by side: value, word, and a sentence that is shown while the pointer is over the
-/// entry (none where the sentence is empty). Returns the entry that was chosen in this frame.
+/// A choice among a few entries, side by side, in several rows where one is too narrow: value, word, and a sentence that
+/// is shown while the pointer is over the entry (none where the sentence is empty). Returns the entry that was chosen in
+/// this frame.
 pub(crate) fn explained<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
@@ -375,32 +376,19 @@ pub(crate) fn explained<T: Copy + PartialEq>(
     current: T,
 ) -> Option<T> {
     let palette = Palette::get(ui);
-    let size = vec2(ui.available_width(), control_height());
-    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let needed = options
+        .iter()
+        .map(|(_, text, _)| text_width(ui, text, theme::strong_font(CHOICE_LETTERS)) + 10.0);
+    let needed: Vec<f32> = needed.collect();
+    let (cells, height, fit) = choice_cells(&needed, ui.available_width());
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     ui.painter()
         .rect_filled(rect, CornerRadius::same(7), palette.sunken);
     let mut chosen = None;
     let wants_focus = egui::Id::unique(("focus the chosen", name));
-    // All alike where every word fits, else each as its word needs; the letters shrink where that is too much.
-    let step = rect.width() / options.len().max(1) as f32;
-    let mut widths: Vec<f32> = options
-        .iter()
-        .map(|(_, text, _)| text_width(ui, text, theme::strong_font(12.5)) + 10.0)
-        .collect();
-    let all: f32 = widths.iter().sum();
-    let is_tight = widths.iter().any(|width| *width > step);
-    let fit = (rect.width() / all).min(1.0);
-    let spare = (rect.width() - all * fit) / options.len().max(1) as f32;
-    for width in &mut widths {
-        *width = if is_tight { *width * fit + spare } else { step };
-    }
-    let letters = 12.5 * fit;
-    let mut left = rect.left();
+    let letters = CHOICE_LETTERS * fit;
     for (i, &(value, text, hint)) in options.iter().enumerate() {
-        let cell =
-            Rect::from_min_size(egui::pos2(left, rect.top()), vec2(widths[i], rect.height()));
-        left = cell.right();
-        let cell = sided(rect, cell);
+        let cell = sided(rect, cells[i].translate(rect.min.to_vec2()));
         let selected = value == current;
         let mut response = ui.interact(cell, ui.scope_id().with((name, i)), Sense::click());
         if !hint.is_empty() {
@@ -458,6 +446,41 @@ pub(crate) fn explained<T: Copy + PartialEq>(
         }
     }
     chosen
+}
+
+/// Where the entries of a choice stand whose words need so much, from the top left corner, how high they are together,
+/// and how much the letters shrink. In a row all are alike where every word fits, else each is as its word needs. A row
+/// shrinks a little before there is a second one.
+fn choice_cells(needed: &[f32], room: f32) -> (Vec<Rect>, f32, f32) {
+    let all: f32 = needed.iter().sum();
+    let widest = needed.iter().copied().fold(1.0, f32::max);
+    let in_one = (room / all.max(1.0)).min(1.0);
+    let fit = match in_one >= LEAST_SHRUNK {
+        true => in_one,
+        false => (room / widest).min(1.0),
+    };
+    let mut rows: Vec<Vec<f32>> = Vec::new();
+    for width in needed.iter().map(|width| width * fit) {
+        match rows.last_mut() {
+            // Sums of floats may be a little too large.
+            Some(row) if row.iter().sum::<f32>() + width <= room + 0.5 => row.push(width),
+            _ => rows.push(vec![width]),
+        }
+    }
+    let mut cells = Vec::with_capacity(needed.len());
+    for (row, widths) in rows.iter().enumerate() {
+        let step = room / widths.len().max(1) as f32;
+        let is_tight = widths.iter().any(|width| *width > step);
+        let spare = step - widths.iter().sum::<f32>() / widths.len().max(1) as f32;
+        let mut left = 0.0;
+        for width in widths {
+            let width = if is_tight { width + spare } else { step };
+            let corner = egui::pos2(left, row as f32 * control_height());
+            cells.push(Rect::from_min_size(corner, vec2(width, control_height())));
+            left += width;
+        }
+    }
+    (cells, rows.len() as f32 * control_height(), fit)
 }
 
 /// A number with its name, a slider and a field, in one row.
@@ -611,6 +634,9 @@ pub(crate) fn combo(id: &'static str, selected: &str, width: f32) -> egui::Combo
 }
 
 const FIELD_WIDTH: f32 = 62.0;
+/// Letters of the words of a choice, points, and how far they shrink before a second row is begun.
+const CHOICE_LETTERS: f32 = 12.5;
+const LEAST_SHRUNK: f32 = 0.88;
 /// Width of the note beside the number of a [`NumberRow`], and by how much the number is narrower there.
 const NOTE_WIDTH: f32 = 54.0;
 const NOTED_LESS: f32 = 20.0;
@@ -763,6 +789,27 @@ mod tests {
                 assert_eq!(plain(f64::from(kept), decimals), wanted, "{name:?}");
             }
         }
+    }
+
+    /// No word of a choice becomes hard to read: a second row is begun, and every row fills the width.
+    #[test]
+    fn choices_that_are_too_long_for_a_row_take_another() {
+        let (cells, height, fit) = choice_cells(&[60.0, 50.0, 40.0], 300.0);
+        assert_eq!((height, fit), (control_height(), 1.0));
+        assert!(cells.iter().all(|cell| cell.width() == 100.0), "{cells:?}");
+        let (cells, height, fit) = choice_cells(&[60.0, 90.0, 60.0, 50.0, 120.0, 110.0], 240.0);
+        assert_eq!((height, fit), (3.0 * control_height(), 1.0));
+        for row in [&cells[..3], &cells[3..5], &cells[5..]] {
+            let tops = row.iter().map(|cell| cell.top());
+            assert!(tops.clone().all(|top| top == row[0].top()), "{cells:?}");
+            let width: f32 = row.iter().map(|cell| cell.width()).sum();
+            assert!((width - 240.0).abs() < 0.01, "{width}");
+        }
+        // A word that is wider than the panel still shrinks; what is a little too wide does as well.
+        let (_, height, fit) = choice_cells(&[480.0, 100.0], 240.0);
+        assert_eq!((height, fit), (2.0 * control_height(), 0.5));
+        let (_, height, fit) = choice_cells(&[130.0, 120.0], 240.0);
+        assert_eq!((height, fit), (control_height(), 0.96));
     }
 
     #[test]

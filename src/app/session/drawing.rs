@@ -3,6 +3,7 @@
 
 use glam::{Quat, Vec3};
 
+use super::camera;
 use super::gesture::{form, gesture};
 use super::hand::{HandCommand, HeldTool, StrokeWay, Touch};
 use super::selection::Selection;
@@ -24,6 +25,8 @@ const LEAST: f32 = 0.012;
 const MOST: f32 = 0.1;
 /// Keys are rounded to this, template units, and turns and lengths of tools to a tenth of it: a link holds them.
 const ROUNDED: f32 = 1e-3;
+/// A click presses the tool in along the normal by so much of its size: it begins outside and ends just inside.
+const PRESSED: f32 = 2.0;
 /// A smooth path has at most so many keys: its spans are four pieces each, of which a document has a limited number.
 const MOST_SMOOTH: usize = 17;
 
@@ -66,6 +69,21 @@ impl Session {
         if !StrokeWay::OF_SWEEPS.contains(&hand.way) {
             hand.way = StrokeWay::Move;
         }
+    }
+
+    /// Presses the tool in at a place, as a click does. `normal` points out of the object.
+    pub(super) fn press_sweep(&mut self, pos: Vec3, normal: Vec3) {
+        let [_, up, _] = camera::axes(self.camera.rotate);
+        let begin = Touch {
+            pos,
+            normal: normal.normalize_or(Vec3::Z),
+            force: None,
+        };
+        let end = Touch {
+            pos: pos - PRESSED * self.hand().size * up,
+            ..begin
+        };
+        self.draw_sweep(StrokeWay::Push, &[begin, end], true);
     }
 
     /// Takes the way of a hand that draws a tool. At its end the tool is in the hand; on a clay it is among the tools
@@ -208,7 +226,7 @@ fn told_in_sides(sides: Vec3, shape: &ToolShape, coat: f32) -> Vec3 {
 mod tests {
     use super::*;
     use crate::app::session::Command;
-    use crate::document::Document;
+    use crate::document::{Document, TemplateData};
     use crate::math::Similarity;
 
     const AT: Touch = Touch {
@@ -328,6 +346,32 @@ mod tests {
                 assert!(notices.is_empty(), "{notices:?}");
             }
         }
+    }
+
+    /// A click is a press of what is in the hand, straight into the surface, wherever the camera stands.
+    #[test]
+    fn a_click_presses_the_tool_in_hand() {
+        let mut session = Session::new(Document::new());
+        session.run(Command::StartPlacing(TemplateKind::Sweep), 0.0);
+        session.hold(HeldTool {
+            form: 3,
+            size: 0.06,
+            ..session.hand().clone()
+        });
+        let (pos, normal) = (AT.pos, Vec3::X);
+        session.run(Command::PlaceAt { pos, normal }, 0.0);
+        assert_eq!(session.tool(), Tool::Look);
+        let template = &session.shown().templates[0];
+        let TemplateData::Tools(tools) = &template.data else {
+            panic!("a sweep")
+        };
+        assert!(matches!(tools.tools[0].shape, Some(ToolShape::Box { .. })));
+        let poses = poses(&(template.placement, tools.clone()));
+        let [first, last] = [0, 1].map(|k| poses[k].place.as_vec3());
+        assert!(first.distance(pos + 0.06 * Vec3::X) < 3e-3, "{first}");
+        assert!(last.distance(pos - 0.06 * Vec3::X) < 3e-3, "{last}");
+        session.run(Command::Undo, 0.0);
+        assert!(session.shown().templates.is_empty(), "one step of undo");
     }
 
     #[test]

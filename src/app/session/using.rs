@@ -87,6 +87,9 @@ impl Session {
         let Some(kind) = self.tool.placing() else {
             return;
         };
+        if self.is_sweeping() {
+            return self.press_sweep(pos, normal);
+        }
         self.tool = Tool::Look;
         let index = self.template_count();
         let edit = Edit::AddTemplate {
