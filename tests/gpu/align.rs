@@ -766,7 +766,7 @@ fn distances_agree_with_brute_force() {
 /// displacement and no farther than the way there is.
 #[test]
 fn constraints_hold_on_every_grid() {
-    let documents = long_or(50, 8);
+    let documents = long_or(50, 6);
     let mut random = Random(0x0b01_71c4);
     let shear = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::new(0.0, 0.35, 1.0));
     let (mut asked, mut moved, mut limited, mut through) = (0, 0, 0, 0);

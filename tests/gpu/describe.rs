@@ -7,6 +7,7 @@ use fabrica::render::{SIGHT_PX, Sighting, Studio};
 use glam::Vec2;
 
 use crate::gpu::{builtin, gpu};
+use crate::long::long_or;
 
 /// As `fabrica render` draws.
 const FULL_PX: [u32; 2] = [1024, 768];
@@ -163,7 +164,7 @@ fn a_pixel_has_the_segment_that_is_picked_there() {
     let seen = sighting(&studio, &document, 3, size_px);
     let at_step = document.at_step(3).expect("a step");
     let mut n_segments = std::collections::BTreeSet::new();
-    for i in (0..64 * 48).step_by(61) {
+    for i in (0..64 * 48).step_by(long_or(61, 121)) {
         let pixel = Vec2::new((i % 64) as f32, (i / 64) as f32) + 0.5;
         let pick = pollster::block_on(studio.pick(at_step.illustration(), size_px, pixel));
         let picked = pick

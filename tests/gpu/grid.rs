@@ -255,7 +255,7 @@ fn check_kinds(
 
 #[test]
 fn nothing_is_hidden_by_one_template() {
-    check_kinds(0x6121D, 4, |random, kind, round| {
+    check_kinds(0x6121D, long_or(4, 3), |random, kind, round| {
         let template = random.template(kind);
         if round % 3 != 0 {
             return vec![template];
@@ -271,7 +271,7 @@ fn nothing_is_hidden_by_one_template() {
 
 #[test]
 fn nothing_is_hidden_along_curves() {
-    check_kinds(0xC06121D, 5, |random, kind, round| {
+    check_kinds(0xC06121D, long_or(5, 3), |random, kind, round| {
         let mut list = vec![random.template(kind)];
         if round % 2 == 1 {
             let at = random.vector(-0.2, 0.2);
@@ -279,7 +279,7 @@ fn nothing_is_hidden_along_curves() {
             let rotate = random.rotation();
             list = vec![PlacedTemplate::new(kind, Placement { at, rotate, size })];
         }
-        if round == 4 {
+        if round == long_or(4, 2) {
             let kind = TemplateKind::FORMULAS[random.index(18)];
             list.push(random.template(kind));
         }
@@ -298,7 +298,7 @@ fn nothing_is_hidden_by_lists_and_groups() {
     let probe = pollster::block_on(Probe::new(gpu)).expect("the probe");
     let mut random = Random(0x6121D);
     let mut tally = Tally::default();
-    for _ in 0..20 {
+    for _ in 0..long_or(20, 12) {
         let count = 2 + random.index(7);
         let mut list = Vec::new();
         for i in 0..count {
@@ -326,7 +326,7 @@ fn nothing_is_hidden_by_sweeps() {
     let probe = pollster::block_on(Probe::new(gpu)).expect("the probe");
     let mut random = Random(0x5EE9);
     let (mut tally, mut leapt) = (Tally::default(), 0);
-    for round in 0..long_or(120, 30) {
+    for round in 0..long_or(120, 18) {
         let mut list = crate::sweeps::sweeps(&mut random, round % 6);
         for template in list.as_array_mut().into_iter().flatten() {
             if round % 3 == 0 {

@@ -255,14 +255,14 @@ fn rigid_balls_follow_whatever_their_size() {
     cases.extend([
         of_kind(TemplateKind::Twist, 1.4),
         of_kind(TemplateKind::Bend, 1.0),
-        of_kind(TemplateKind::Pull, 1.0),
     ]);
     if is_long() {
+        cases.push(of_kind(TemplateKind::Pull, 1.0));
         let others = TemplateKind::FORMULAS.into_iter();
         let others = others.filter(|kind| !matches!(kind, TemplateKind::Cut | TemplateKind::Move));
         cases.extend(others.map(|kind| of_kind(kind, 0.9)));
     }
-    for radius in [0.01, 0.03, 0.1, 0.3] {
+    for radius in long_or(vec![0.01, 0.03, 0.1, 0.3], vec![0.01, 0.03, 0.3]) {
         let volume = ball(center, radius);
         let studio = studio_of(gpu(), &volume, false);
         let labels = Labels::new(&volume);
@@ -313,7 +313,7 @@ fn rigid_balls_follow_whatever_their_size() {
 /// stands for eight voxels and the gap between two balls is one voxel wide.
 #[test]
 fn connected_parts_move_each_by_itself() {
-    for side in [64, 136] {
+    for side in [64, long_or(136, 104)] {
         let voxel = 1.0 / f64::from(side);
         // Nearly touching along y.
         let three = [

@@ -125,7 +125,7 @@ fn slices_agree_with_the_object_probe() {
 
 #[test]
 fn slices_agree_with_the_object_probe_where_tissue_is_kept() {
-    let (slices, least) = long_or((12, (4_000, 300, 50)), (6, (2_000, 150, 25)));
+    let (slices, least) = long_or((12, (4_000, 300, 50)), (4, (1_300, 100, 16)));
     agree(KEPT, slices, least);
 }
 

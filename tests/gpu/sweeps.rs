@@ -140,7 +140,7 @@ fn random_sweeps_are_the_flow_of_the_reference() {
         let document = document(sweeps(&mut random, round % 6));
         let text: Value = serde_json::from_str(&document.to_json()).expect("its own text");
         let templates = &document.illustration().templates;
-        let points: Vec<Vec3> = (0..long_or(200, 60))
+        let points: Vec<Vec3> = (0..long_or(200, 40))
             .map(|_| {
                 let of = &templates[random.index(templates.len())];
                 of.subject_from_template(random.vector(-0.2, 1.2))
@@ -446,7 +446,7 @@ fn the_baked_map_draws_tissue_in_its_place() {
         let texel = (map.size / map.texels.as_vec3()).max_element();
         let mut random = Random(0xba4e);
         let mut offs = Vec::new();
-        while offs.len() < long_or(3000, 1000) {
+        while offs.len() < long_or(3000, 600) {
             let point = map.origin_min + map.size * random.vector(0.0, 1.0);
             let texel_here = map.at(point).expect("inside the box");
             let way = Vec3::new(texel_here[0], texel_here[1], texel_here[2]);
