@@ -28,8 +28,8 @@ const NOTHING_NUMBER: usize = 0;
 const NOTHING: [f32; 4] = [0.0, 0.0, 0.0, -1e6];
 /// Stages of a step: each asks for the field of every tool.
 const STAGES: usize = 4;
-/// Fields that a cell of the skip grid may ask for, and parts of a cell along each side that may be asked about. lavapipe
-/// makes a grid of 48 cells a side of a sweep of a tool alone within 0.3 s so.
+/// Fields that a cell of the skip grid may ask for, and parts of a cell along each side that may be asked about. So
+/// lavapipe makes a grid of 48 cells a side of a sweep of a tool alone within 0.3 s.
 const MOST_FIELDS: usize = 8_192;
 const MOST_PARTS: u32 = 3;
 /// A field of tools that act together takes so much longer than one of a tool alone, as measured.
@@ -521,8 +521,8 @@ impl<'a> Sweeping<'a> {
 }
 
 impl Sweeping<'_> {
-    /// What the sweep of these rows ([`Sweeping::rows`]) has, as bits of `drawn_kinds`; nothing if nothing moves. The same
-    /// at each progress, so that no program is made while it changes.
+    /// What the sweep of these rows ([`Sweeping::rows`]) has, as bits of `drawn_kinds`; nothing if nothing moves. It is
+    /// the same at each progress, so that no program is made while that changes.
     pub(crate) fn drawn_in(rows: &[[f32; 4]]) -> u32 {
         let number = |row: usize, part: usize| rows.get(row).map_or(0, |row| row[part] as usize);
         let (tools, images) = (number(0, 3), number(1, 2));

@@ -366,9 +366,9 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     explained(ui, name, &options, current)
 }
 
-/// A choice among a few entries, side by side, in several rows where one is too narrow: value, word, and a sentence that
-/// is shown while the pointer is over the entry (none where the sentence is empty). Returns the entry that was chosen in
-/// this frame.
+/// A choice among a few entries, side by side, in several rows where one is too narrow: value, word, and a sentence
+/// that is shown while the pointer is over the entry (none where the sentence is empty). Returns the entry that was
+/// chosen in this frame.
 pub(crate) fn explained<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
