@@ -372,6 +372,7 @@ fn tissue_is_left_alone_by_check_boxes() {
         .get_by_label("Protect: Weaker")
         .click_accesskit();
     window.settle();
+    window.look("protect");
     assert_eq!(get(&window, "constrain/by"), Some("coordinate".into()));
     window.press_with(Modifiers::COMMAND, Key::Z);
     assert_eq!(get(&window, "constrain"), None);
