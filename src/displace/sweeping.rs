@@ -521,8 +521,8 @@ impl<'a> Sweeping<'a> {
 }
 
 impl Sweeping<'_> {
-    /// What the sweep of these rows ([`Sweeping::rows`]) has, as bits of `drawn_kinds`; nothing if nothing moves. It is
-    /// the same at each progress, so that no program is made while that changes.
+    /// What the sweep of these rows ([`Sweeping::rows`]) has, as bits of `drawn_kinds`; nothing if nothing moves. Else
+    /// it is the same at each progress, so that no program is made while that changes.
     pub(crate) fn drawn_in(rows: &[[f32; 4]]) -> u32 {
         let number = |row: usize, part: usize| rows.get(row).map_or(0, |row| row[part] as usize);
         let (tools, images) = (number(0, 3), number(1, 2));

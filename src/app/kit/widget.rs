@@ -469,9 +469,10 @@ fn choice_cells(needed: &[f32], room: f32) -> (Vec<Rect>, f32, f32) {
     }
     let mut cells = Vec::with_capacity(needed.len());
     for (row, widths) in rows.iter().enumerate() {
-        let step = room / widths.len().max(1) as f32;
+        let count = widths.len() as f32;
+        let step = room / count;
         let is_tight = widths.iter().any(|width| *width > step);
-        let spare = step - widths.iter().sum::<f32>() / widths.len().max(1) as f32;
+        let spare = step - widths.iter().sum::<f32>() / count;
         let mut left = 0.0;
         for width in widths {
             let width = if is_tight { width + spare } else { step };
