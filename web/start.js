@@ -83,7 +83,22 @@ async function partOfDocument() {
   }
 }
 
+/**
+ * Decides in the text of egui's shader what it asks at each pixel: whether to filter textures by hand and whether to dither,
+ * neither of which the viewer wants. A software GPU works out all answers, and took seven times as long to draw the panels.
+ */
+function decideInShader() {
+  if (!window.GPUDevice) return;
+  const make = GPUDevice.prototype.createShaderModule;
+  GPUDevice.prototype.createShaderModule = function (module) {
+    if (module.label !== "egui") return make.call(this, module);
+    const filters = module.code.replace("r_locals.predictable_texture_filtering == 0", "true");
+    return make.call(this, { ...module, code: filters.replaceAll("r_locals.dithering == 1", "false") });
+  };
+}
+
 async function main() {
+  decideInShader();
   let fabrica;
   let program;
   let early = navigator.gpu && showsTheHead() ? startPart("subjects") : null;

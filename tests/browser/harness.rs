@@ -40,9 +40,9 @@ const ROUND: Duration = Duration::from_millis(30);
 /// The page's viewer.
 const VIEWER: &str = "window.fabrica.viewer";
 
-/// Runs in every page before its own scripts: keeps what the page complains of and the graphics devices that it made,
-/// and counts frames for [`Tab::frames`]. A page that sleeps is asked for the frames. Finished pictures have one sample
-/// for each pixel: a software GPU takes the longest for the others.
+/// Runs in every page before its own scripts: keeps what the page complains of, the graphics devices that it made and
+/// the texts of their shaders by label, and counts frames for [`Tab::frames`]. A page that sleeps is asked for the
+/// frames. Finished pictures have one sample for each pixel: a software GPU takes the longest for the others.
 const PREPARED: &str = r#"
 window.fabricaSamples = 1;
 window.messages = [];
@@ -55,6 +55,12 @@ addEventListener("error", (event) => event instanceof ErrorEvent && window.messa
 addEventListener("unhandledrejection", (event) => window.messages.push("unhandled: " + event.reason));
 addEventListener("securitypolicyviolation", (event) => window.messages.push("policy: " + event.violatedDirective + " " + event.blockedURI));
 if (window.GPUAdapter) {
+  const make = GPUDevice.prototype.createShaderModule;
+  window.shaders = {};
+  GPUDevice.prototype.createShaderModule = function (module) {
+    window.shaders[module.label] = module.code;
+    return make.call(this, module);
+  };
   const request = GPUAdapter.prototype.requestDevice;
   window.devices = [];
   GPUAdapter.prototype.requestDevice = async function (...wanted) {

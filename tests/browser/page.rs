@@ -24,6 +24,14 @@ fn plain_address_shows_the_head() {
             "the head fills the picture: {drawn} pixels"
         );
         tab.assert_no_complaints().await;
+        // What the toolkit would ask at each pixel is decided in the text: a software GPU works out all answers.
+        let of_panels: String = tab.eval("window.shaders.egui").await;
+        let asks = |name: &str| of_panels.contains(&format!("if r_locals.{name}"));
+        assert!(
+            of_panels.contains("if true") && of_panels.contains("if false"),
+            "{of_panels}"
+        );
+        assert!(!asks("predictable_texture_filtering") && !asks("dithering"));
         let fetched: Vec<String> = tab
             .eval("performance.getEntriesByType('resource').map(e => e.name).filter(n => !n.startsWith(location.origin) && !n.startsWith('blob:'))")
             .await;
