@@ -94,8 +94,11 @@ async fn answered(tab: &Tab, what: &str, at: (f64, f64), condition: &str) {
         .await;
     tab.frames(2).await;
     let is_at_rest: bool = tab.eval("window.fabrica.viewer.is_at_rest()").await;
-    let script = format!("window.answer(() => {{ {condition} }})");
-    let (answer, ()) = tokio::join!(tab.eval::<Answer>(&script), press_at(tab, at));
+    // The page waits for the press before it comes.
+    let script = format!("window.answered = window.answer(() => {{ {condition} }}); true");
+    tab.eval::<bool>(&script).await;
+    press_at(tab, at).await;
+    let answer: Answer = tab.eval("window.answered").await;
     println!(
         "{what:<12} while the picture {}: begun after {:3.0} ms, taken in {:3.0}, painted {:4.0} (busy {:3.0}), drawn {:4.0}",
         if is_at_rest {
