@@ -329,8 +329,10 @@ struct Slice {
     mode: u32,
     /// Samples per pixel along each side.
     samples: u32,
-    /// rgb: the colour of marked values, linear. w: its strength, 0 to 1; at 0 no values are marked.
-    marked: vec4f,
+    /// The colour of marked values, linear RGB.
+    marked_color: vec3f,
+    /// The strength of that colour, 0 to 1; at 0 no values are marked.
+    marked_strength: f32,
     /// The lowest and the highest marked value, normalised.
     marked_from: f32,
     marked_to: f32,
@@ -454,9 +456,10 @@ const CONSTRAIN_MANY: u32 = 5u;
 struct Kept {
     /// Rest space to texture space of the distances.
     distance_from_rest: Affine,
-    /// xyz: voxels of the distances along each axis. w: by how much a distance between them may be too long, subject
-    /// units.
-    distance_dims: vec4f,
+    /// Voxels of the distances along each axis.
+    distance_dims: vec3f,
+    /// By how much a distance between them may be too long, subject units.
+    distance_slack: f32,
     /// Smallest spacing of the distances, subject units.
     spacing: f32,
     /// Slabs in the texture of the distances, one behind the other along z. The first has the sets' distances,

@@ -17,7 +17,7 @@
 // |p - x| = min(|D|, d(x) / h) <= d(x), and the ball of radius d(x) about x holds nothing of the kept set. Along a
 // displacement of one direction u in that zone the map has the slope 1 + (u . grad d) / h >= 1 - 1/h > 0: it does not
 // fold, as eq. 5.15 may where |D| is its maximum. `d` is the distance as it is stored less what linear interpolation
-// between its samples may add (`kept.distance_dims.w`), and less what the smooth surface of the set may lie before the
+// between its samples may add (`kept.distance_slack`), and less what the smooth surface of the set may lie before the
 // labels (`kept.rim`).
 // needs: types.wgsl affine.wgsl kinds.wgsl bind/templates.wgsl bind/kept.wgsl displace/frame.wgsl displace/compose.wgsl
 //   march/kept.wgsl
@@ -101,7 +101,7 @@ fn is_of_bodies(pos: vec3f, head: u32, sets: u32) -> bool {
 /// so that there is no step where the segment ends.
 fn way_to_body(place: Guarded) -> f32 {
     let told = max(place.away, 0.0);
-    return told * told / (told + max(kept.distance_dims.w, 1e-6));
+    return told * told / (told + max(kept.distance_slack, 1e-6));
 }
 
 /// How firmly a body holds tissue that lies `away` from it: 1 at its surface, to 0 at the end of its seam, where it
@@ -202,7 +202,7 @@ fn group_map(pos: vec3f, head: u32, bits: u32) -> Mapped {
         return Mapped(pos, 1.0);
     }
     // The smooth surface lies up to half a voxel before the labels from which distances are taken: nothing moves at it.
-    let away = max(place.away - kept.distance_dims.w - kept.rim, 0.0);
+    let away = max(place.away - kept.distance_slack - kept.rim, 0.0);
     if (has_constraints & (1u << CONSTRAIN_COORDINATE)) != 0u {
         if mode == CONSTRAIN_COORDINATE {
             let part = min(away / max(kept.motions[4u * head].row0.x, 1e-6), 1.0);

@@ -208,8 +208,8 @@ fn constraint_of(i: u32) -> u32 {
 /// and more; how much more is left out.
 fn distance_voxel(rest: vec3f) -> vec3i {
     let uvw = apply_affine(kept.distance_from_rest, rest);
-    let last = vec3i(kept.distance_dims.xyz) - 1;
-    return min(vec3i(clamp(uvw, vec3f(0.0), vec3f(1.0)) * kept.distance_dims.xyz), last);
+    let last = vec3i(kept.distance_dims) - 1;
+    return min(vec3i(clamp(uvw, vec3f(0.0), vec3f(1.0)) * kept.distance_dims), last);
 }
 
 /// Distance of a voxel to the nearest of some sets of segments.
@@ -227,7 +227,7 @@ fn voxel_diagonal() -> f32 {
         length(kept.distance_from_rest.row0.xyz),
         length(kept.distance_from_rest.row1.xyz),
         length(kept.distance_from_rest.row2.xyz),
-    ) * kept.distance_dims.xyz;
+    ) * kept.distance_dims;
     return length(1.0 / per_unit);
 }
 
@@ -275,7 +275,7 @@ fn is_reached_by_rigid(head: u32, center: vec3f, half: vec3f) -> bool {
         let channel = firstTrailingBit(left);
         let box = moved_whole(head, channel, center, half);
         let least = distance_to_sets(distance_voxel(box[0]), 1u << channel);
-        let seam = kept.seams[head][channel] + kept.distance_dims.w;
+        let seam = kept.seams[head][channel] + kept.distance_slack;
         let reach = length(half) + seam + max(3.0 * kept.spacing, 1.5 * voxel_diagonal());
         is_reached = least <= reach;
     }

@@ -429,10 +429,10 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
         length(vec3f(to_rest.row0.z, to_rest.row1.z, to_rest.row2.z)),
     );
     var low = vec3f(0.0);
-    var high = kept.distance_dims.xyz;
+    var high = kept.distance_dims;
     for (var turn = 0u; turn < SEEK_TURNS; turn++) {
         let cell = (high - low) / f32(SEEK_SIDE);
-        let reach = 0.5 * length(sides * cell) + kept.distance_dims.w;
+        let reach = 0.5 * length(sides * cell) + kept.distance_slack;
         var own_low = vec3f(NO_END);
         var own_high = vec3f(-NO_END);
         let count = SEEK_SIDE * SEEK_SIDE * SEEK_SIDE;
@@ -457,7 +457,7 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
         workgroupBarrier();
     }
     low = max(floor(low), vec3f(0.0));
-    high = min(ceil(high), kept.distance_dims.xyz);
+    high = min(ceil(high), kept.distance_dims);
     let samples = max(vec3u(high - low), vec3u(1u));
     let cells = select(vec3u(SIDE), samples * (SIDE / min(samples, vec3u(SIDE))), samples <= vec3u(SIDE));
     let cell = vec3f(samples) / vec3f(cells);
@@ -502,7 +502,7 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
             let wanted = nearest.rest - slope / max(length(slope), 1e-9) * way;
             let there = place_of(wanted, nearest, all_bits);
             // Where distances lead astray, as between two parts of the segment, there is none.
-            let is_of_segment = distance_to_kept(wanted, sets, 0.0, exact) <= kept.distance_dims.w;
+            let is_of_segment = distance_to_kept(wanted, sets, 0.0, exact) <= kept.distance_slack;
             if is_of_segment && is_place_of(wanted, there) {
                 start_places[slot] = vec4f(there.pos, 1.0);
                 start_rests[slot] = vec4f(there.rest, 0.0);
@@ -542,7 +542,7 @@ fn fit(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) lan
         let told = apply_affine(to_rest, select(floor(at_sample) + 0.5, at_sample, has_shares));
         let away = distance_to_kept(told, sets, 0.0, exact);
         var share = select(0.0, 1.0, away < 0.0);
-        if has_shares && abs(away) <= fade + kept.distance_dims.w {
+        if has_shares && abs(away) <= fade + kept.distance_slack {
             share = 0.0;
             var middle_of_share = vec3f(0.0);
             for (var eighth = 0u; eighth < 8u; eighth++) {

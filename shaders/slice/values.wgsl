@@ -53,8 +53,8 @@ fn marked_color_of(here: Here) -> vec3f {
         return slice.background.rgb;
     }
     let color = color_of(here);
-    if slice.marked.w > 0.0 && here.texel >= slice.marked_from && here.texel <= slice.marked_to {
-        return mix(color, slice.marked.rgb, slice.marked.w);
+    if slice.marked_strength > 0.0 && here.texel >= slice.marked_from && here.texel <= slice.marked_to {
+        return mix(color, slice.marked_color, slice.marked_strength);
     }
     return color;
 }

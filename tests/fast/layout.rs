@@ -65,13 +65,14 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Resolve { scale, end, background, is_straight, is_unlit }
         Sheet { half_size, texels, viewport, levels }
         Slice {
-            subject_from_pixel, background, grey_scale, grey_offset, mode, samples, marked, marked_from, marked_to,
+            subject_from_pixel, background, grey_scale, grey_offset, mode, samples, marked_color, marked_strength,
+            marked_from, marked_to,
         }
         Lattice { corner, cells, side, count, dispatch }
         KeptGroup { keeps, run, gives_way_to, constraint, depth, blend, longest, before, aligned }
         Kept {
-            distance_from_rest, distance_dims, spacing, slab_count, exact_slab, depth_slab, parts, is_coarse, shared_sets,
-            shares_add, rim, label_sets, items, motions, seams,
+            distance_from_rest, distance_dims, distance_slack, spacing, slab_count, exact_slab, depth_slab, parts,
+            is_coarse, shared_sets, shares_add, rim, label_sets, items, motions, seams,
         }
         DistanceJob {
             volume_from_voxel, fine, coarse, spacing, ratio, label_from_voxel, rest_from_voxel, half_box, half_ball,

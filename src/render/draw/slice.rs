@@ -341,15 +341,15 @@ impl SliceBoard {
             }
             SliceColors::Look => (SLICE_COLORS, [0.0; 2]),
         };
-        let (marked, [marked_from, marked_to]) = match view.marked {
+        let (marked_color, [marked_from, marked_to]) = match view.marked {
             Some(MarkedValues { range, color_srgb }) => {
                 let span = (high - low).max(f32::MIN_POSITIVE);
-                let color = linear_color(color_srgb).extend(MARK_STRENGTH).to_array();
+                let color = linear_color(color_srgb).to_array();
                 // Beyond the subject's values nothing is told apart.
                 let texel = |value: f32| ((value - low) / span).clamp(-1.0, 2.0);
                 (color, range.map(texel))
             }
-            None => ([0.0; 4], [0.0; 2]),
+            None => ([0.0; 3], [0.0; 2]),
         };
         let slice = Slice {
             background: linear_color(view.background_srgb).extend(1.0).to_array(),
@@ -357,7 +357,8 @@ impl SliceBoard {
             grey_offset,
             mode,
             samples: view.samples.clamp(1, 4),
-            marked,
+            marked_color,
+            marked_strength: view.marked.map_or(0.0, |_| MARK_STRENGTH),
             marked_from,
             marked_to,
             ..uniform_of(&view.plane)

@@ -344,8 +344,10 @@ pub const MAX_MOTIONS: usize = 4 * MAX_TEMPLATES;
 pub struct Kept {
     /// Rest space to texture space of the distances.
     pub distance_from_rest: Affine,
-    /// xyz: voxels of the distances. w: by how much one between them may be too long, subject units.
-    pub distance_dims: [f32; 4],
+    /// Voxels of the distances along each axis.
+    pub distance_dims: [f32; 3],
+    /// By how much a distance between them may be too long, subject units.
+    pub distance_slack: f32,
     /// Their smallest spacing, subject units.
     pub spacing: f32,
     /// Slabs of the distances.
@@ -384,7 +386,8 @@ impl Kept {
     /// Nothing is kept.
     pub const NONE: Self = Self {
         distance_from_rest: Affine::ZERO,
-        distance_dims: [0.0; 4],
+        distance_dims: [0.0; 3],
+        distance_slack: 0.0,
         spacing: 0.0,
         slab_count: 0,
         exact_slab: 0,
@@ -908,8 +911,10 @@ pub struct Slice {
     pub mode: u32,
     /// Samples per pixel along each side.
     pub samples: u32,
-    /// Linear RGB of marked values, and the strength of that colour, 0 to 1; at 0 no values are marked.
-    pub marked: [f32; 4],
+    /// The colour of marked values, linear RGB.
+    pub marked_color: [f32; 3],
+    /// The strength of that colour, 0 to 1; at 0 no values are marked.
+    pub marked_strength: f32,
     /// The lowest marked value, normalised.
     pub marked_from: f32,
     /// The highest marked value, normalised.

@@ -212,11 +212,11 @@ impl KeptTextures {
         let spacing = self
             .plan
             .map_or(1.0, |plan| (plan.spacing * plan.ratio).min_element());
-        let slack = self.plan.map_or(0.0, |plan| plan.slack);
         let dims = self.plan.map_or(UVec3::ONE, |plan| plan.coarse).as_vec3();
         let uniform = Kept {
             distance_from_rest: texture_from_rest.as_affine3a().into(),
-            distance_dims: dims.extend(slack).to_array(),
+            distance_dims: dims.to_array(),
+            distance_slack: self.plan.map_or(0.0, |plan| plan.slack),
             spacing,
             slab_count: self.plan.map_or(1, |plan| plan.slab_count),
             exact_slab: self.plan.map_or(0, |plan| plan.exact_slab),
