@@ -36,7 +36,7 @@ pub(crate) fn ui(
             w().hint_choose,
             session.tool().placing().is_some() || has_one,
         ),
-        (w().hint_place, is_opened),
+        (theme::by_hand([w().hint_place, w().tap_place]), is_opened),
         (w().hint_link, false),
     ];
     let galleys = lines.map(|(text, is_done)| {

@@ -135,6 +135,11 @@ pub(crate) fn is_touch() -> bool {
     IS_TOUCH.get()
 }
 
+/// Of a text for who has a mouse and one for fingers, the one that fits.
+pub(crate) fn by_hand([by_mouse, by_finger]: [&'static str; 2]) -> &'static str {
+    if is_touch() { by_finger } else { by_mouse }
+}
+
 /// Makes controls for fingers, or for a mouse. Seen from the next frame on.
 pub(crate) fn set_touch(ctx: &egui::Context, is_touch: bool) {
     if IS_TOUCH.replace(is_touch) != is_touch {

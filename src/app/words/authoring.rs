@@ -39,6 +39,7 @@ words! {
         hint_title: "Three steps", "Drei Schritte", "Tres pasos", "三步完成";
         hint_choose: "Choose a template in the catalogue.", "Eine Vorlage im Katalog wählen.", "Elija una plantilla del catálogo.", "在目录中选择一个模板。";
         hint_place: "Click on the object; drag the yellow knob to open it.", "Auf das Objekt klicken; am gelben Knopf öffnen.", "Haga clic en el objeto; arrastre el botón amarillo para abrirlo.", "点击对象；拖动黄色旋钮将其打开。";
+        tap_place: "Tap the object; drag the yellow knob to open it.", "Das Objekt antippen; am gelben Knopf öffnen.", "Toque el objeto; arrastre el botón amarillo para abrirlo.", "点按对象；拖动黄色旋钮将其打开。";
         hint_link: "Copy the link: it holds everything.", "Den Link kopieren: er enthält alles.", "Copie el enlace: lo contiene todo.", "复制链接：其中包含一切。";
         hint_done: "Got it", "Verstanden", "Entendido", "知道了";
     }

@@ -7,7 +7,7 @@ use glam::Vec2;
 use std::sync::Arc;
 
 use crate::app::kit::icon::Icon;
-use crate::app::kit::theme::{Palette, over_picture as ink};
+use crate::app::kit::theme::{self, Palette, over_picture as ink};
 use crate::app::kit::widget::{self, Named as _};
 use crate::app::session::figure::{FigureCommand, Reference, ReferenceCommand, Takes};
 use crate::app::session::{Command, Session};
@@ -108,9 +108,13 @@ fn next(session: &Session, other: &Reference) -> String {
         (Takes::Landmarks, _) if wanted == 0 => w().no_landmarks.to_owned(),
         (Takes::Landmarks, _) => {
             let next = (other.points.len() + 1).min(wanted);
-            fill(w().click_landmark, &[&next, &wanted])
+            let text = theme::by_hand([w().click_landmark, w().tap_next]);
+            fill(text, &[&next, &wanted])
         }
-        (Takes::Outline, Some(region)) => fill(w().click_outline, &[region]),
+        (Takes::Outline, Some(region)) => {
+            let text = theme::by_hand([w().click_outline, w().tap_outline]);
+            fill(text, &[region])
+        }
         (Takes::Outline, None) => w().no_region.to_owned(),
     }
 }
