@@ -149,7 +149,13 @@ impl<'a> Sweeping<'a> {
     }
 
     /// How the tools go, each in its place in the list; none of an unknown shape.
-    pub(crate) fn ways(tools: &SweepTools, size: Vec3, progress: f32) -> Vec<Option<ToolWay>> {
+    /// Lines of a form, as [`ToolShape::outline`], are those of `outline`.
+    pub(crate) fn ways(
+        tools: &SweepTools,
+        size: Vec3,
+        progress: f32,
+        outline: &dyn Fn(&ToolShape) -> Vec<Vec<Vec3>>,
+    ) -> Vec<Option<ToolWay>> {
         let size = size.as_dvec3();
         let images = images_of(tools.mirror);
         let way = |tool: &SweepTool| {
@@ -164,7 +170,7 @@ impl<'a> Sweeping<'a> {
                 }
             });
             let (_, _, pose) = mover.at(f64::from(progress));
-            let lines = mover.shape.outline();
+            let lines = outline(mover.shape);
             let mut outline = Vec::new();
             for image in &images {
                 for line in &lines {

@@ -74,6 +74,7 @@ fn joined(first: &PlacedTemplate, second: &PlacedTemplate) -> Option<SweepTools>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::data::Grids;
     use crate::document::Document;
     use crate::placed::tool_ways;
     use serde_json::{Value, json};
@@ -103,8 +104,12 @@ mod tests {
         assert_eq!((index, tools.tools.len()), (0, 2));
         let mut whole = all[0].clone();
         whole.data = TemplateData::Tools(tools.clone());
-        let before = tool_ways(&all[1])[0].clone().expect("a box");
-        let after = tool_ways(&whole)[1].clone().expect("a box");
+        let before = tool_ways(&all[1], &Grids::default())[0]
+            .clone()
+            .expect("a box");
+        let after = tool_ways(&whole, &Grids::default())[1]
+            .clone()
+            .expect("a box");
         let lines = before.outline.iter().zip(&after.outline);
         for (old, new) in lines.flat_map(|(old, new)| old.iter().zip(new)) {
             let [old, new] =

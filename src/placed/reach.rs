@@ -1,7 +1,7 @@
-use crate::data::{Carver, FieldSamples, Resources};
+use crate::data::{Carver, FieldSamples, Grids, Resources};
 use crate::displace::{
     Given, GridPlace, Interpolant, MAX_PARAM_FLOATS, Missed, Reach, Samples, Sweeping, Tool,
-    ToolFile, ToolWay,
+    ToolFile, ToolShape, ToolWay,
 };
 use crate::document::{PlacedTemplate, TemplateData};
 use glam::Vec3;
@@ -86,11 +86,13 @@ pub fn sweep_texels(template: &PlacedTemplate) -> Vec<[f32; 4]> {
 }
 
 /// How the tools of a `sweep` go with the parameters that it has, each in its place in the list; none of other kinds.
-pub fn tool_ways(template: &PlacedTemplate) -> Vec<Option<ToolWay>> {
+/// The form of a mesh is drawn as far as its grid is there.
+pub fn tool_ways(template: &PlacedTemplate, grids: &Grids) -> Vec<Option<ToolWay>> {
     match &template.data {
         TemplateData::Tools(tools) => {
             let progress = given(template, None, None).p[0];
-            Sweeping::ways(tools, acting_size(template), progress)
+            let outline = |shape: &ToolShape| grids.outline(shape);
+            Sweeping::ways(tools, acting_size(template), progress, &outline)
         }
         _ => Vec::new(),
     }

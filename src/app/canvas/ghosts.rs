@@ -15,10 +15,10 @@ use crate::math::Similarity;
 /// The ghosts. Delete on a key takes all of its ghost back.
 pub(crate) fn ui(ui: &Ui, view: &Projection, session: &Session, commands: &mut Vec<Command>) {
     let painter = ui.painter_at(view.rect);
-    let mirror = session.hand().mirror;
+    let (mirror, grids) = (session.hand().mirror, &session.view.grids);
     if let Some(Pose { at, turn, .. }) = session.laid() {
         let pose = Similarity::new(1.0, turn.as_dquat(), at.as_dvec3());
-        let outline = placed_outline(&session.hand().shape(), pose);
+        let outline = placed_outline(grids, &session.hand().shape(), pose);
         paint_outline(&painter, view, &outline, mirror, ink::HOT);
     }
     let last = session.together.ghosts.len().wrapping_sub(1);
@@ -28,7 +28,7 @@ pub(crate) fn ui(ui: &Ui, view: &Projection, session: &Session, commands: &mut V
         let count = poses.len().min(ends.len());
         for pose in ends.into_iter().take(count).flatten() {
             if let Some(shape) = &ghost.tool.shape {
-                let outline = placed_outline(shape, *pose);
+                let outline = placed_outline(grids, shape, *pose);
                 paint_outline(&painter, view, &outline, mirror, ink::HALO_LIGHT);
             }
         }

@@ -25,7 +25,7 @@ impl<'a> Held<'a> {
     /// The tool that is laid down, if one is.
     pub(crate) fn of_tool(session: &Session) -> Option<Self> {
         let pose = session.laid()?;
-        let sides = sides_of_tool(session.hand());
+        let sides = sides_of_tool(&session.view.grids, session.hand());
         Some(Self::Tool(pose, sides))
     }
 

@@ -6,15 +6,16 @@ use glam::Vec3;
 use super::projection::Projection;
 use crate::app::kit::theme::over_picture as ink;
 use crate::app::session::HeldTool;
+use crate::data::Grids;
 use crate::displace::images_of;
 use crate::document::ToolShape;
 use crate::math::Similarity;
 
-/// The lines of a tool that stands so, subject space.
-pub(super) fn placed_outline(shape: &ToolShape, pose: Similarity) -> Vec<Vec<Vec3>> {
+/// The lines of a tool that stands so, subject space. `grids`: those of meshes that are there.
+pub(super) fn placed_outline(grids: &Grids, shape: &ToolShape, pose: Similarity) -> Vec<Vec<Vec3>> {
     let (turn, place) = (pose.turn.as_quat(), pose.place.as_vec3());
     let placed = |p: &Vec3| place + pose.scale as f32 * (turn * *p);
-    let lines = shape.outline();
+    let lines = grids.outline(shape);
     let lines = lines.iter().map(|line| line.iter().map(placed).collect());
     lines.collect()
 }
@@ -43,8 +44,8 @@ pub(super) fn seen(view: &Projection, line: &[Vec3], image: Vec3) -> Option<Vec<
 }
 
 /// Sides of the box around the tool in a hand, subject units.
-pub(super) fn sides_of_tool(hand: &HeldTool) -> Vec3 {
-    let lines = hand.shape().outline().into_iter().flatten();
+pub(super) fn sides_of_tool(grids: &Grids, hand: &HeldTool) -> Vec3 {
+    let lines = grids.outline(&hand.shape()).into_iter().flatten();
     2.0 * lines.fold(Vec3::ZERO, |far, p| far.max(p.abs()))
 }
 

@@ -383,7 +383,7 @@ impl ShapingHand {
         }
         let (middle, turn) = hand.pose(&at);
         let placed = Similarity::new(1.0, turn.as_dquat(), middle.as_dvec3());
-        let outline = placed_outline(&hand.shape(), placed);
+        let outline = placed_outline(&session.view.grids, &hand.shape(), placed);
         paint_outline(&painter, view, &outline, hand.mirror, ink::HOT);
         let ring = ring(view, middle, hand.size + hand.coat);
         for line in images(hand.mirror).filter_map(|image| seen(view, &ring, image)) {
@@ -572,10 +572,7 @@ fn handles_ui(ui: &mut Ui, current: GizmoMode, width: f32, commands: &mut Vec<Co
 /// At the head of what is free of the picture: what a click and a drag do.
 pub(crate) fn what_to_do_ui(ui: &Ui, free: Rect) {
     let words = sweep::w();
-    let text = match theme::is_touch() {
-        true => words.tap_or_draw,
-        false => words.click_or_draw,
-    };
+    let text = theme::by_hand([words.click_or_draw, words.tap_or_draw]);
     let palette = Palette::get(ui);
     let painter = ui.painter();
     let font = theme::strong_font(12.5);

@@ -311,7 +311,7 @@ impl Viewport {
         let asked = ui.input(|i| i.pointer.latest_pos());
         let asked = asked.filter(|_| response.double_clicked());
         let is_point = points::ui(ui, view, template, asked, commands);
-        let is_key = ways::ui(ui, view, template, asked, commands);
+        let is_key = ways::ui(ui, view, (template, &session.view.grids), asked, commands);
         if curve::ui(ui, view, template, commands) || is_point || is_key {
             self.gizmo.release();
         } else {

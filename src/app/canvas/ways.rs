@@ -10,6 +10,7 @@ use crate::app::kit::theme::over_picture as ink;
 use crate::app::session::Command;
 use crate::app::words::fill;
 use crate::app::words::sweep::w;
+use crate::data::Grids;
 use crate::displace::{FARTHEST, ToolWay, WAY_PARTS};
 use crate::document::{Edit, MAX_KEYS, PathKey, PlacedTemplate, SweepTools, TemplateData};
 use crate::placed;
@@ -24,12 +25,12 @@ fn set(template: &PlacedTemplate, tools: SweepTools) -> Edit {
     }
 }
 
-/// The lines, and the handles of the keys. True if one of them is under the pointer or held. A double click on a way
-/// adds a key there.
+/// The lines, and the handles of the keys; `grids` are those of meshes that are there. True if one of them is under the
+/// pointer or held. A double click on a way adds a key there.
 pub(crate) fn ui(
     ui: &mut Ui,
     view: &Projection,
-    template: &PlacedTemplate,
+    (template, grids): (&PlacedTemplate, &Grids),
     double_click: Option<Pos2>,
     commands: &mut Vec<Command>,
 ) -> bool {
@@ -37,7 +38,7 @@ pub(crate) fn ui(
         return false;
     };
     let to_ui = |q: Vec3| view.ui_from_subject(template.subject_from_template(q));
-    let ways = placed::tool_ways(template);
+    let ways = placed::tool_ways(template, grids);
     for way in ways.iter().flatten() {
         lines_ui(ui, view, way, &to_ui);
     }
@@ -83,7 +84,7 @@ pub(crate) fn ui(
 /// True if a place in the picture is on the way of a tool.
 pub(crate) fn is_near(view: &Projection, template: &PlacedTemplate, pos: Pos2) -> bool {
     let to_ui = |q: Vec3| view.ui_from_subject(template.subject_from_template(q));
-    let ways = placed::tool_ways(template);
+    let ways = placed::tool_ways(template, &Grids::default());
     let mut spots = ways.iter().flatten().flat_map(|way| &way.poses);
     spots.any(|pose| to_ui(pose.at).is_some_and(|spot| spot.distance(pos) < REACH))
 }

@@ -11,8 +11,9 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, UVec3};
+use glam::{DVec3, UVec3, Vec3};
 
+use super::rims::rims;
 use crate::displace::ToolShape;
 
 /// Nodes along the longest side.
@@ -27,6 +28,8 @@ pub struct DistanceGrid {
     /// x fastest; each a number that a 16-bit float holds.
     pub(super) values: Vec<f32>,
     pub(super) is_open: bool,
+    /// Closed lines that show its form, in its own space.
+    rims: Vec<Vec<Vec3>>,
 }
 
 impl DistanceGrid {
@@ -39,7 +42,8 @@ impl DistanceGrid {
             && nodes.max_element() <= NODES
             && values.len() == nodes.element_product() as usize
             && values.iter().all(|value| value.is_finite());
-        fits.then_some(Self {
+        fits.then(|| Self {
+            rims: rims(nodes, &values, Self::CELL as f32),
             nodes,
             values,
             is_open,
@@ -144,6 +148,18 @@ impl Grids {
                 found.map(|(_, grid)| (grid, *longest))
             }
             _ => None,
+        }
+    }
+
+    /// Lines that show the form of a tool, as [`ToolShape::outline`]; of a mesh whose grid is there the rims of its
+    /// shadows along its axes.
+    pub fn outline(&self, shape: &ToolShape) -> Vec<Vec<Vec3>> {
+        match self.of(shape) {
+            Some((grid, longest)) => {
+                let sized = |line: &Vec<Vec3>| line.iter().map(|p| longest * *p).collect();
+                grid.rims.iter().map(sized).collect()
+            }
+            None => shape.outline(),
         }
     }
 }

@@ -107,11 +107,7 @@ impl DistanceGrid {
             true => 0.0,
             false => f16::from_f32(far / longest).to_f32(),
         };
-        Some(Self {
-            nodes,
-            values: found.iter().map(rounded).collect(),
-            is_open,
-        })
+        Self::from_parts(nodes, found.iter().map(rounded).collect(), is_open)
     }
 }
 

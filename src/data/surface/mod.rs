@@ -10,6 +10,7 @@ mod gridding;
 mod lids;
 mod normals;
 mod parted;
+mod rims;
 #[cfg(test)]
 pub(crate) mod testing;
 mod textures;
