@@ -9,7 +9,7 @@
 export async function showBench(fabrica, box, plan) {
   const bar = document.createElement("progress");
   const told = document.createElement("p");
-  told.textContent = "Frames of the built-in head are drawn and timed. Leave this page in sight until it is done.";
+  told.textContent = "Frames of the built-in head and of an apple are drawn and timed. Leave this page in sight until it is done.";
   bar.setAttribute("aria-label", "Measured");
   box.replaceChildren(told, bar);
   box.hidden = false;

@@ -1,14 +1,20 @@
 //! What the page's scripts may have drawn beside the viewers: a picture as a PNG, and the frame times of this browser.
 
 use std::cell::RefCell;
+use std::sync::Arc;
 
 use wasm_bindgen::prelude::*;
 
 use super::web::{open, seconds};
 use super::worker::run;
-use crate::document::{Document, SubjectRef};
-use crate::render::{BenchPlan, Gpu, GpuOptions, Studio, encode_png};
+use super::worker::task::{ScanTask, Task};
+use crate::data::{Subject, Surface};
+use crate::document::{Document, SceneObject, SubjectRef};
+use crate::render::{BenchMeshes, BenchPlan, Gpu, GpuOptions, Studio, encode_png};
 use crate::subjects::FINE_RESOLUTION;
+
+/// The mesh that is measured.
+const MESH: &str = "apple";
 
 thread_local! {
     /// What [`render_png`] draws with, kept for the next call: a subject's name, its resolution, and a device that
@@ -57,7 +63,7 @@ pub async fn render_png(
     let studio = match held.filter(|(n, r, _)| n == name && *r == resolution) {
         Some((_, _, studio)) => studio,
         None => {
-            let subject = run::make_subject(&run::known_address(), name, resolution).await?;
+            let subject = made(Task::Subject(name.clone(), Some(resolution))).await?;
             let studio = Studio::new(&gpu, &subject, true).map_err(words)?;
             STUDIO.set(Some((name.clone(), resolution, studio.clone())));
             studio
@@ -68,10 +74,19 @@ pub async fn render_png(
     encode_png(&image).map_err(words)
 }
 
-/// Times frames of the built-in head on this browser's adapter, the rows of `fabrica bench`, and gives the report as
-/// JSON and as text: `[json, text]`. `repeats` frames per row count, of pictures `side_px` wide and high and a head of
-/// `resolution` voxels along its longest side, in the first `rows` rows; 0 takes what the command does. `on_progress`
-/// is called with how much is measured, 0 to 1.
+async fn made(task: Task) -> Result<Subject, String> {
+    run::make_subject(&run::known_address(), &task).await
+}
+
+async fn made_mesh(task: Task) -> Result<Arc<Surface>, String> {
+    let subject = made(task).await?;
+    (subject.surface().cloned()).ok_or_else(|| "a mesh was made as something else".to_owned())
+}
+
+/// Times frames of the built-in head, apple and scalpel on this browser's adapter, the rows of `fabrica bench` but that
+/// of sixteen times as many triangles, and gives the report as JSON and as text: `[json, text]`. `repeats` frames per
+/// row count, of pictures `side_px` wide and high and a head of `resolution` voxels along its longest side, in the
+/// first `rows` rows; 0 takes what the command does. `on_progress` is called with how much is measured, 0 to 1.
 ///
 /// # Errors
 /// What is wrong with the subject or the device, in words.
@@ -101,11 +116,21 @@ pub async fn bench(
         0 => FINE_RESOLUTION,
         n => n,
     };
-    let subject = run::make_subject(&run::known_address(), name, resolution).await?;
+    let subject = made(Task::Subject(name.clone(), Some(resolution))).await?;
+    let mut meshes = None;
+    if plan.wants_meshes() {
+        let tool = ScanTask::Mesh(SceneObject::BUILTINS[0].to_owned(), false);
+        meshes = Some(BenchMeshes {
+            surface: made_mesh(Task::Subject(MESH.to_owned(), None)).await?,
+            // Nobody waits in a page for its preparation, which takes longest of all.
+            finer: None,
+            tool: made_mesh(Task::Scan(tool)).await?,
+        });
+    }
     let report = crate::render::bench(
         &gpu,
         (&subject, &illustration.subject),
-        None,
+        meshes.as_ref(),
         plan,
         seconds,
         |part| {

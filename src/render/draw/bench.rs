@@ -131,6 +131,14 @@ impl Default for BenchPlan {
     }
 }
 
+impl BenchPlan {
+    /// True if rows of meshes are wanted: they come behind all others.
+    pub fn wants_meshes(&self) -> bool {
+        let others = 2 * CASES.len() + CONSTRAINED.len() + STYLED.len() + SWEPT.len();
+        self.most_rows > others
+    }
+}
+
 /// The eight templates read from the baked map, as while the camera moves.
 const BAKED: &str = "eight, baked";
 
@@ -196,6 +204,8 @@ impl Case {
 pub struct BenchMeshes {
     /// Drawn as a subject.
     pub surface: Arc<Surface>,
+    /// The same of sixteen times as many triangles, if they are to be drawn too.
+    pub finer: Option<Arc<Surface>>,
     /// Drawn as an object.
     pub tool: Arc<Surface>,
 }
@@ -344,9 +354,7 @@ fn mesh_cases(gpu: &Gpu, drawn: &Studio, meshes: &BenchMeshes) -> Result<Vec<Cas
         illustration,
     };
     let no_grid = drawn.with_grid(false);
-    let finer = Subject::from(Arc::new(meshes.surface.parted().parted()));
-    let finer = Studio::new(gpu, &finer, true)?;
-    Ok(vec![
+    let mut cases = vec![
         of("surface", drawn, shown(0, BodyKind::Auto)),
         of("surface, one poke", drawn, poked),
         of("surface, hollow cut", drawn, shown(1, BodyKind::Hollow)),
@@ -354,8 +362,12 @@ fn mesh_cases(gpu: &Gpu, drawn: &Studio, meshes: &BenchMeshes) -> Result<Vec<Cas
         of("surface, hollow cut", &no_grid, shown(1, BodyKind::Hollow)),
         of("surface, solid cut", &no_grid, shown(1, BodyKind::Solid)),
         of("surface, eight templates", drawn, shown(8, BodyKind::Auto)),
-        of("surface, 16 x", &finer, shown(0, BodyKind::Auto)),
-    ])
+    ];
+    if let Some(finer) = &meshes.finer {
+        let finer = Studio::new(gpu, &Subject::from(Arc::clone(finer)), true)?;
+        cases.push(of("surface, 16 x", &finer, shown(0, BodyKind::Auto)));
+    }
+    Ok(cases)
 }
 
 /// A ball that is swept into the subject from the front over three coatings, or a twist of the box that it reaches.

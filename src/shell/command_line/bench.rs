@@ -37,7 +37,11 @@ pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
     let report = pollster::block_on(crate::render::bench(
         &gpu,
         (&scan, &illustration.subject),
-        Some(&BenchMeshes { surface, tool }),
+        Some(&BenchMeshes {
+            finer: Some(Arc::new(surface.parted().parted())),
+            surface,
+            tool,
+        }),
         BenchPlan::default(),
         system_clock,
         |_| {},

@@ -308,16 +308,15 @@ pub fn known_address() -> String {
     }
 }
 
-/// Makes a built-in subject with this many voxels along its longest side.
+/// The subject that a task makes.
 ///
 /// # Errors
 /// In words: why there is none.
-pub async fn make_subject(address: &str, name: &str, resolution: u32) -> Result<Subject, String> {
+pub async fn make_subject(address: &str, task: &Task) -> Result<Subject, String> {
     let made = Rc::new(RefCell::new((SubjectBuilder::default(), None::<String>)));
     let for_answer = Rc::clone(&made);
-    let task = Task::Subject(name.to_owned(), Some(resolution));
     let maker = address.into();
-    let run = to_end(&maker, &task, UNLIMITED, move |answer| {
+    let run = to_end(&maker, task, UNLIMITED, move |answer| {
         let (builder, fault) = &mut *for_answer.borrow_mut();
         match answer {
             Answer::Event(LoadEvent::Part(part)) => {
