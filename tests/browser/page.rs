@@ -305,7 +305,7 @@ fn page_without_webgpu_names_remedies() {
 fn bench_page_ends_in_a_table() {
     with_browser(BrowserGpu::Software, |session| async move {
         // Each row is a program, which takes a software GPU the longest: the first three show how all of them go.
-        let rows = if is_long() { 14 } else { 3 };
+        let rows = if is_long() { 30 } else { 3 };
         let address = format!("?bench=1&size=48&voxels=64&rows={rows}");
         let tab = session.open(&address).await;
         tab.wait_until("document.documentElement.dataset.state === 'measured'", 300)
