@@ -35,7 +35,7 @@ struct Templates {
     /// How many of them count.
     count: u32,
     /// What templates hold besides parameters, see displace/{curve,rbf,field}.wgsl. The first row is 0: nothing held.
-    pool: array<vec4f, 1536>,
+    pool: array<vec4f, 2816>,
 }
 
 /// One picture's camera and sampling.

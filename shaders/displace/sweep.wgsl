@@ -14,11 +14,15 @@
 // weighted velocities, so that the result depends on no number of steps, part of the way and the rest are the whole,
 // and there is an inverse: the same flow backwards (spec/sweepers.md, D, has all of it).
 //
-// By classical Runge-Kutta, whose steps the processor finds (src/displace/sweeping.rs). `templates.pool[held]` holds
-// where steps, blocks of steps and blocks of those begin in the texture of sweeps, and the number of tools; then the
-// last step that acts, the progress that it acts until, the number of images of all tools, bits of the axes that are
-// mirrored; then the box outside which nothing moves; then for each image the signs of its axes and its tool (w); then
-// for each tool two rows: its form; its shape and what one through its coating is.
+// By classical Runge-Kutta, whose steps the processor finds (src/displace/sweeping.rs), for each cluster of tools and
+// images whose reaches meet: what another moves is out of their reach. Clusters that are mirror images of each other
+// are copies of one. `templates.pool[held]` (src/displace/sweep_rows.rs) holds the number of copies of clusters, the
+// progress that all act until, bits of the axes that are mirrored; then the box outside which nothing moves; then five
+// rows for each copy. Those are: where steps, blocks of steps and blocks of those begin in the texture of sweeps, and
+// the number of tools; the last step that acts, the number of images, and the row from `held` on where these begin; the
+// signs of the axes by which it is mirrored; the box outside which it moves nothing. Then come, for each cluster, the
+// signs of the axes and the tool (w) of each image, and for each tool two rows: its form; its shape and what one
+// through its coating is.
 // A step in the texture: its start and length, and how many steps before it are as long and go by the same screw; a
 // ball that holds the reach of all that moves in it (w: square of the radius); for each tool a ball that holds its
 // reach, rows of the inverse of its pose at the start, its screw (turn and growth, velocity of the origin), its scale.
@@ -31,21 +35,23 @@
 
 /// Steps in a block, and blocks in a block of blocks, as a power of two.
 const SWEEP_BLOCK_BITS: u32 = 3u;
-/// Rows of the pool before those of images.
-const SWEEP_HEAD: u32 = 4u;
+/// Rows of the pool before those of copies, and for each of these.
+const SWEEP_HEAD: u32 = 3u;
+const SWEEP_COPY_ROWS: u32 = 5u;
 /// Texels of a step for itself.
 const SWEEP_STEP_ROWS: u32 = 2u;
 /// Texels of a step for each tool.
 const SWEEP_TOOL_ROWS: u32 = 6u;
 
-/// Bit j is set if image j of a tool may reach a point. `first`: the ball of the first tool.
-fn sweep_hits(x: vec3f, first: u32, held: u32, images: u32) -> u32 {
+/// Bit j is set if image j of a tool may reach a point. `first`: the ball of the first tool; `of_images`: the first row
+/// of the images in the pool.
+fn sweep_hits(x: vec3f, first: u32, of_images: u32, images: u32) -> u32 {
     var hits = 0u;
     for (var j = 0u; j < images; j += 2u) {
         // Two to a turn; the second is the first again where there is none.
         let k = min(j + 1u, images - 1u);
-        let one = templates.pool[held + SWEEP_HEAD + j];
-        let two = templates.pool[held + SWEEP_HEAD + k];
+        let one = templates.pool[of_images + j];
+        let two = templates.pool[of_images + k];
         let ball_one = sweep_texel(first + SWEEP_TOOL_ROWS * u32(one.w));
         let ball_two = sweep_texel(first + SWEEP_TOOL_ROWS * u32(two.w));
         let way_one = one.xyz * x - ball_one.xyz;
@@ -56,12 +62,18 @@ fn sweep_hits(x: vec3f, first: u32, held: u32, images: u32) -> u32 {
     return hits;
 }
 
-/// The last step from `last` on backwards that may move a point, -1 for none.
-fn sweep_find(x: vec3f, last: i32, head: vec4f) -> i32 {
+/// A step that may move a point, -1 for none, and the block and the block of blocks that hold it.
+struct FoundStep {
+    index: i32,
+    known: vec2i,
+}
+
+/// The last step from `last` on backwards that may move a point. `before_known`: block and block of blocks whose steps
+/// are asked for themselves; -1 for none.
+fn sweep_find(x: vec3f, last: i32, head: vec4f, before_known: vec2i) -> FoundStep {
     let step_rows = SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * u32(head.w);
     var i = last;
-    // Block and block of blocks that are known to be reached.
-    var known = vec2i(-1);
+    var known = before_known;
     while i >= 0 {
         let block = vec2i(i, i >> SWEEP_BLOCK_BITS) >> vec2u(SWEEP_BLOCK_BITS);
         let is_wide = known.y != block.y;
@@ -87,7 +99,7 @@ fn sweep_find(x: vec3f, last: i32, head: vec4f) -> i32 {
             break;
         }
     }
-    return i;
+    return FoundStep(i, known);
 }
 
 /// The last step that begins before a time.
@@ -225,16 +237,52 @@ fn with_three_fields(flow: Flow, step: SweepStep) -> Flow {
     return with_field(with_field(with_field(flow, step), step), step);
 }
 
+/// As `sweep_back`, six times over `lasts`, where one image alone may reach the point, whose tool is no curve: what is
+/// read of it serves all stages.
+fn sweep_back_one(step: SweepStep) -> vec3f {
+    let of_image = templates.pool[step.of_images + firstTrailingBit(step.near)];
+    let tool = u32(of_image.w);
+    let first = step.at + SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * tool;
+    let form = templates.pool[step.of_tools + 2u * tool];
+    let kind = templates.pool[step.of_tools + 2u * tool + 1u];
+    let row_x = sweep_texel(first + 1u);
+    let row_y = sweep_texel(first + 2u);
+    let row_z = sweep_texel(first + 3u);
+    let screw = sweep_texel(first + 4u);
+    let moves = sweep_texel(first + 5u);
+    let end = of_image.xyz * step.end;
+    var at = end;
+    var since = step.lasts;
+    var total = vec3f(0.0);
+    // A loop: drawn out it is no quicker, and takes twice as long to compile.
+    for (var stage = 0u; stage < 4u; stage++) {
+        let posed = posed_in_step(at, since, screw, moves);
+        let own = vec4f(posed.place, 1.0);
+        let place = vec3f(dot(row_x, own), dot(row_y, own), dot(row_z, own));
+        let distance = moves.w * posed.growth * tool_distance(place, u32(kind.x), form);
+        let flow = tool_field(distance * kind.y) * posed.velocity;
+        total += select(1.0, 2.0, stage == 1u || stage == 2u) * flow;
+        let next = select(0.5, 1.0, stage == 2u) * step.lasts;
+        at = end - next * flow;
+        since = step.lasts - next;
+    }
+    return of_image.xyz * total;
+}
+
 /// From where the flow of one step has brought a point, from `lasts` after the step's start. `at`: texel of the step.
-fn sweep_back(end: vec3f, at: u32, lasts: f32, held: u32, images: u32, mirror: u32, tools: u32) -> vec3f {
-    let of_images = held + SWEEP_HEAD;
+fn sweep_back(end: vec3f, at: u32, lasts: f32, of_images: u32, images: u32, mirror: u32) -> vec3f {
     let planes = (vec3u(mirror) & vec3u(1u, 2u, 4u)) != vec3u(0u);
     // What is driven by one tool comes into the reach of no other within the step: the balls have room for its way.
-    let near = sweep_hits(end, at + SWEEP_STEP_ROWS, held, images);
+    let near = sweep_hits(end, at + SWEEP_STEP_ROWS, of_images, images);
     if near == 0u {
         return vec3f(0.0);
     }
     let step = SweepStep(end, lasts, planes & (end == vec3f(0.0)), near, of_images, of_images + images, at);
+    let first_tool = u32(templates.pool[of_images + firstTrailingBit(near)].w);
+    let shape = u32(templates.pool[step.of_tools + 2u * first_tool + 1u].x);
+    if (near & (near - 1u)) == 0u && shape != CURVE_SHAPE {
+        return sweep_back_one(step) * (-lasts / 6.0);
+    }
     var flow = Flow(end, lasts, vec3f(0.0), 0u, vec3f(0.0), 0.0, 1.0, near, NO_END, 0u);
     while flow.stage < 4u {
         flow = with_three_fields(with_field(flow, step), step);
@@ -306,44 +354,65 @@ fn sweep_back_alone(end: vec3f, last: i32, progress: f32, head: vec4f, form: vec
     return SweptRun(select(vec3f(0.0), start - end, is_moved), last - i32(done) - 1);
 }
 
+/// The way back of what one copy of a cluster moves, from a place of the box. `row`: its first row in the pool.
+fn sweep_moved(place: vec3f, progress: f32, held: u32, row: u32) -> vec3f {
+    let whole = templates.pool[held];
+    let head = templates.pool[row];
+    let acting = templates.pool[row + 1u];
+    let signs = templates.pool[row + 2u].xyz;
+    let images = u32(acting.y);
+    let of_images = held + u32(acting.z);
+    let step_rows = SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * u32(head.w);
+    let form = templates.pool[of_images + images];
+    let kind = templates.pool[of_images + images + 1u];
+    let is_alone = images == 1u && u32(kind.x) != CURVE_SHAPE;
+    let start = signs * place;
+    var last = i32(acting.x);
+    // Constraints by coordinate do a part of it.
+    if progress < whole.y {
+        last = i32(sweep_step_at(progress, u32(last), head));
+    }
+    var moved = vec3f(0.0);
+    // Blocks stay known when the point moves: their steps are asked for themselves.
+    var known = vec2i(-1);
+    loop {
+        let found = sweep_find(start + moved, last, head, known);
+        let i = found.index;
+        if i < 0 {
+            break;
+        }
+        known = found.known;
+        if is_alone {
+            let run = sweep_back_alone(start + moved, i, progress, head, form, kind);
+            moved += run.moved;
+            last = run.last;
+        } else {
+            let at = u32(head.x) + u32(i) * step_rows;
+            let time = sweep_texel(at);
+            let lasts = min(time.y, progress - time.x);
+            moved += sweep_back(start + moved, at, lasts, of_images, images, u32(whole.z));
+            last = i - 1;
+        }
+    }
+    return signs * moved;
+}
+
 /// p0: progress. `held`: index in the pool, 0 if nothing moves.
 fn displace_sweep(q: vec3f, size: vec3f, p0: vec4f, p1: vec4f, held: u32) -> Displaced {
     if held == 0u || p0.x <= 0.0 {
         return at_rest(q);
     }
     let start = size * (q - 0.5);
-    if any(start < templates.pool[held + 2u].xyz) || any(start > templates.pool[held + 3u].xyz) {
+    if any(start < templates.pool[held + 1u].xyz) || any(start > templates.pool[held + 2u].xyz) {
         return at_rest(q);
     }
-    let head = templates.pool[held];
-    let acting = templates.pool[held + 1u];
-    let tools = u32(head.w);
-    let images = u32(acting.z);
-    let step_rows = SWEEP_STEP_ROWS + SWEEP_TOOL_ROWS * tools;
-    let form = templates.pool[held + SWEEP_HEAD + images];
-    let kind = templates.pool[held + SWEEP_HEAD + images + 1u];
-    let is_alone = images == 1u && u32(kind.x) != CURVE_SHAPE;
-    var last = i32(acting.x);
-    // Constraints by coordinate do a part of it.
-    if p0.x < acting.y {
-        last = i32(sweep_step_at(p0.x, u32(last), head));
-    }
+    // At most one of them moves a place, and brings it into the reach of no other.
     var moved = vec3f(0.0);
-    loop {
-        let i = sweep_find(start + moved, last, head);
-        if i < 0 {
-            break;
-        }
-        if is_alone {
-            let run = sweep_back_alone(start + moved, i, p0.x, head, form, kind);
-            moved += run.moved;
-            last = run.last;
-        } else {
-            let at = u32(head.x) + u32(i) * step_rows;
-            let time = sweep_texel(at);
-            let lasts = min(time.y, p0.x - time.x);
-            moved += sweep_back(start + moved, at, lasts, held, images, u32(acting.w), tools);
-            last = i - 1;
+    let copies = u32(templates.pool[held].x);
+    for (var copy = 0u; copy < copies; copy++) {
+        let row = held + SWEEP_HEAD + SWEEP_COPY_ROWS * copy;
+        if all(start >= templates.pool[row + 3u].xyz) && all(start <= templates.pool[row + 4u].xyz) {
+            moved += sweep_moved(start, p0.x, held, row);
         }
     }
     return Displaced(q + moved / size, 1.0);

@@ -47,6 +47,7 @@
 
 mod bend;
 mod carve;
+mod clusters;
 mod constants;
 mod crack;
 mod cut;
@@ -75,6 +76,7 @@ mod spec;
 mod split;
 mod squeeze;
 mod sweep;
+mod sweep_rows;
 mod sweeping;
 mod tools;
 mod twist;
@@ -96,8 +98,9 @@ pub(crate) use mover::{Ball, Mover, asked_in, counted_in, images_of, spans, want
 pub use noise::noise;
 pub use points::{ControlPoint, ControlPoints};
 pub use spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateSpec};
+pub use sweep_rows::GridPlace;
 pub(crate) use sweeping::Sweeping;
-pub use sweeping::{GridPlace, ToolWay, WAY_PARTS};
+pub use sweeping::{ToolWay, WAY_PARTS};
 pub(crate) use tools::{COAT, FARTHEST, LONG, LONGEST, ROUND, SCALE, SOLID};
 pub use tools::{
     MAX_GRIDS, MAX_IMAGES, MAX_KEYS, MAX_PIECES, MAX_SWEEP_STEPS, MAX_TOOL_POINTS, MAX_TOOLS,

@@ -107,6 +107,7 @@ fn besides() -> Vec<Case> {
                 "camera": above,
             }),
         ),
+        // A ball and its image act together, the ellipsoid alone on either side.
         case(
             "sweep",
             &[
@@ -117,8 +118,8 @@ fn besides() -> Vec<Case> {
             json!({
                 "subject": { "builtin": "cube" },
                 "templates": [{ "kind": "sweep", "at": [0, 0, 0.2], "size": [0.8, 0.8, 0.8], "params": { "mirror": "x", "tools": [
-                    { "radius": 0.12, "path": [[0.25, 0.5, 1.1], [0.3, 0.5, 0.75]] },
-                    { "shape": "ellipsoid", "path": [[0.7, 0.15, 0.6], { "at": [0.7, 0.1, 1.0], "rotate": [0, 0, 0.4, 0.9165] }] },
+                    { "radius": 0.12, "coat": 0.12, "path": [[0.25, 0.5, 1.1], [0.3, 0.5, 0.9]] },
+                    { "shape": "ellipsoid", "radii": [0.12, 0.08, 0.08], "coat": 0.1, "path": [[0.7, 0, 0.8], { "at": [0.7, -0.05, 1.05], "rotate": [0, 0, 0.4, 0.9165] }] },
                 ] } }],
                 "camera": above,
             }),

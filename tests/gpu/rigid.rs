@@ -113,34 +113,39 @@ impl Motion {
 }
 
 /// Where material is that was at a place: by steps along the map's inverse, in 64 bits, from its place at rest and from
-/// around, near and far: a door takes what is beside its cut far away.
-fn forward(list: &[Placed], rest: DVec3) -> Option<DVec3> {
-    let map = |pos: DVec3| reference::map(list, pos).0;
+/// around, near and far: a door takes what is beside its cut far away. `way` is tried before: most material goes the
+/// way of what is beside it.
+fn forward(list: &[Placed], rest: DVec3, way: DVec3) -> Option<DVec3> {
     let sides = |i: i32| DVec3::new(f64::from(i % 3), f64::from(i / 3 % 3), f64::from(i / 9)) - 1.0;
     let ways = [0.3, 0.15, 0.6];
     let around = ways
         .into_iter()
         .flat_map(|way| (0..27).map(move |i| sides(i) * way));
-    std::iter::once(DVec3::ZERO)
+    [way, DVec3::ZERO]
+        .into_iter()
         .chain(around)
-        .find_map(|start| {
-            let mut pos = rest + start;
-            for _ in 0..60 {
-                let off = rest - map(pos);
-                if off.length() < 1e-11 {
-                    let is_there = reference::map(list, pos).1 >= 0.0;
-                    return is_there.then_some(pos);
-                }
-                let h = 1e-6;
-                let column = |axis: DVec3| (map(pos + axis * h) - map(pos - axis * h)) / (2.0 * h);
-                let slope = DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z));
-                if slope.determinant().abs() < 1e-6 {
-                    return None;
-                }
-                pos += (slope.inverse() * off).clamp_length_max(0.1);
-            }
-            None
-        })
+        .find_map(|start| forward_from(list, rest, rest + start))
+}
+
+/// The same from one place on.
+fn forward_from(list: &[Placed], rest: DVec3, start: DVec3) -> Option<DVec3> {
+    let map = |pos: DVec3| reference::map(list, pos).0;
+    let mut pos = start;
+    for _ in 0..60 {
+        let off = rest - map(pos);
+        if off.length() < 1e-11 {
+            let is_there = reference::map(list, pos).1 >= 0.0;
+            return is_there.then_some(pos);
+        }
+        let h = 1e-6;
+        let column = |axis: DVec3| (map(pos + axis * h) - map(pos - axis * h)) / (2.0 * h);
+        let slope = DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z));
+        if slope.determinant().abs() < 1e-6 {
+            return None;
+        }
+        pos += (slope.inverse() * off).clamp_length_max(0.1);
+    }
+    None
 }
 
 /// Places of the tissue of a segment at rest, for a voxel is a box full of tissue: the middles of cells in each voxel,
@@ -188,6 +193,7 @@ fn wanted_motion(free: &PlacedTemplate, tissue: &[DVec3]) -> Motion {
     let some = tissue
         .iter()
         .step_by(1 + tissue.len() / long_or(120_000, 12_000));
+    let mut way = DVec3::ZERO;
     let pairs: Vec<(DVec3, DVec3)> = some
         .filter_map(|rest| match (free.kind, &free.params[..]) {
             // Too far away for steps from where it was.
@@ -195,7 +201,11 @@ fn wanted_motion(free: &PlacedTemplate, tissue: &[DVec3]) -> Motion {
                 let by = by.as_dvec3() * free.placement.size.as_dvec3();
                 Some((turn.as_dquat() * *rest + by, *rest))
             }
-            _ => Some((forward(&list, *rest)?, *rest)),
+            _ => {
+                let place = forward(&list, *rest, way)?;
+                way = place - *rest;
+                Some((place, *rest))
+            }
         })
         .collect();
     assert!(pairs.len() > 40, "{:?}: {} places", free.kind, pairs.len());
@@ -425,8 +435,12 @@ fn rigid_balls_go_in_even_steps() {
         let from_tip = DVec3::new(0.0, -0.06, 0.0);
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, -DVec3::ONE];
         let middle = match step {
-            0 => forward(&as_reference(std::slice::from_ref(&template)), center)
-                .expect("it is somewhere"),
+            0 => forward(
+                &as_reference(std::slice::from_ref(&template)),
+                center,
+                DVec3::ZERO,
+            )
+            .expect("it is somewhere"),
             _ => place + from_tip,
         };
         let at: Vec<Vec3> = corners

@@ -169,6 +169,63 @@ fn random_sweeps_are_the_flow_of_the_reference() {
     assert!(off_aim < asked / 50, "{off_aim} of {asked} miss the aim");
 }
 
+/// Tools and images whose reaches stay apart are integrated each by itself, those that meet together: the flow is the
+/// same.
+#[test]
+fn tools_apart_move_each_its_own_tissue() {
+    let ball =
+        |from: [f64; 3], to: [f64; 3]| json!({ "radius": 0.06, "coat": 0.08, "path": [from, to] });
+    let turned = json!({ "at": [0.8, 0.25, 0.6], "rotate": [0, 0, 0.4, 0.9165], "scale": 1.3 });
+    let egg = json!({ "shape": "ellipsoid", "radii": [0.08, 0.05, 0.05], "coat": 0.06, "path": [[0.7, 0.2, 0.4], turned] });
+    let arc = json!({ "shape": "curve", "points": [[-0.1, 0, 0], [0, 0.05, 0], [0.1, 0, 0.03]], "radius": 0.02, "coat": 0.07,
+        "path": [[0.2, 0.8, 0.3], [0.3, 0.75, 0.7]] });
+    let cases = [
+        // Four images of one tool, each alone.
+        ("xy", vec![ball([0.2, 0.2, 0.2], [0.25, 0.3, 0.8])]),
+        // At its end it meets its image in one mirror.
+        ("xz", vec![ball([0.2, 0.5, 0.2], [0.42, 0.5, 0.25])]),
+        // Two alone and a curve, each on either side.
+        (
+            "x",
+            vec![ball([0.2, 0.2, 0.2], [0.25, 0.25, 0.8]), egg, arc],
+        ),
+        // The second meets the image of the first.
+        (
+            "x",
+            vec![
+                ball([0.2, 0.5, 0.2], [0.2, 0.5, 0.8]),
+                ball([0.8, 0.4, 0.5], [0.8, 0.7, 0.5]),
+            ],
+        ),
+    ];
+    let mut random = Random(0x0a9a_27ed);
+    for (case, (mirror, tools)) in cases.into_iter().enumerate() {
+        for progress in [1.0, 0.55] {
+            let document = document(
+                json!([{ "kind": "sweep", "at": [0.05, 0, 0.1], "rotate": [0.1, 0.2, 0, 0.9747], "size": [0.8, 0.9, 0.7],
+                "params": { "progress": progress, "mirror": mirror, "tools": tools } }]),
+            );
+            let templates = &document.illustration().templates;
+            let points: Vec<Vec3> = (0..long_or(4_000, 300))
+                .map(|_| templates[0].subject_from_template(random.vector(0.0, 1.0)))
+                .collect();
+            let found = ask(&document, &points);
+            let moved = points.iter().zip(&found);
+            let is_moved = |(p, s): &(&Vec3, &Sample)| **p != s.pos_in_rest;
+            let moved = moved.filter(is_moved).count();
+            assert!(moved * 50 > points.len(), "case {case}: {moved} moved");
+            let text: Value = serde_json::from_str(&document.to_json()).expect("its own text");
+            let [over, off_aim] = wrong(&Sweep::all(&text), &points, &found);
+            println!("case {case} at {progress}: {moved} moved, {off_aim} off by more than {AIM}");
+            assert_eq!(over, 0, "case {case} at {progress}");
+            assert!(
+                off_aim * 50 < moved,
+                "case {case}: {off_aim} of {moved} miss the aim"
+            );
+        }
+    }
+}
+
 /// A block, 1 by 0.6 by 0.3, as a grid of distances.
 fn block() -> Arc<DistanceGrid> {
     let corner = |i: u32| {
