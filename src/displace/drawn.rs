@@ -6,11 +6,11 @@ pub const DRAWN_GRIDS: u32 = 1 << 31;
 pub const DRAWN_ELLIPSOIDS: u32 = 1 << 30;
 /// Tools that are curves, of straight pieces.
 pub const DRAWN_PIECES: u32 = 1 << 29;
-/// A sweep of a tool alone that is no curve and has no image.
+/// A tool alone that is no curve: neither another nor an image of it comes into its reach.
 pub const DRAWN_ALONE: u32 = 1 << 28;
-/// A sweep that is none such.
+/// Tools that act together, or a curve.
 pub const DRAWN_TOGETHER: u32 = 1 << 27;
-/// A sweep that is none such, and asks for so many fields that several share a turn of a loop.
+/// Such tools that ask for so many fields that several share a turn of a loop.
 pub const DRAWN_CROWDED: u32 = 1 << 26;
 /// All that sweeps may have.
 pub const DRAWN_OF_SWEEPS: u32 =

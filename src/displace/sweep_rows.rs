@@ -4,7 +4,7 @@ use super::drawn::{
     DRAWN_ALONE, DRAWN_CROWDED, DRAWN_ELLIPSOIDS, DRAWN_GRIDS, DRAWN_PIECES, DRAWN_TOGETHER,
 };
 use super::mover::{Ball, Mover};
-use super::sweeping::{ClusterFlow, ROUNDING, STAGES, Sweeping, mirrored, turns_of};
+use super::sweeping::{ClusterFlow, ROUNDING, STAGES, Sweeping, turns_of};
 use super::tools::{ToolFile, ToolShape};
 use crate::math::Aabb;
 use glam::{DVec3, UVec3, Vec3};
@@ -22,6 +22,11 @@ const NODE_BITS: u32 = 6;
 /// What is not there yet holds nothing: as a ball, from which everything is far away. Its number, and its form.
 const NOTHING_NUMBER: usize = 0;
 const NOTHING: [f32; 4] = [0.0, 0.0, 0.0, -1e6];
+/// A box that holds no point, in numbers that uniforms may hold.
+const NOWHERE: Aabb = Aabb {
+    min: Vec3::splat(1e30),
+    max: Vec3::splat(-1e30),
+};
 /// Fields of a place from which on several are asked in one turn of a loop. A ray asks for some two hundred places, and
 /// lavapipe ends all loops after 65,535 turns.
 const CROWDED: usize = 256;
@@ -60,7 +65,10 @@ impl Sweeping<'_> {
             .iter()
             .map(ClusterFlow::texel_count)
             .sum::<usize>();
-        let swept = self.swept(f64::from(progress));
+        let until = f64::from(progress);
+        let boxes: Vec<Vec<Aabb>> = self.flows.iter().map(|flow| flow.swept(until)).collect();
+        let swept = boxes.iter().flatten().copied();
+        let swept = swept.fold(Aabb::EMPTY, Aabb::union);
         if swept.is_empty() {
             return Vec::new();
         }
@@ -68,16 +76,16 @@ impl Sweeping<'_> {
             .filter(|axis| self.mirror[*axis])
             .map(|axis| 1 << axis);
         let mirror: u32 = mirror.sum();
-        let copies: usize = self.flows.iter().map(|flow| flow.copies.len()).sum();
+        let copies = boxes.iter().flatten().count();
         let mut rows = vec![
             [copies as f32, progress, mirror as f32, 0.0],
             swept.min.extend(0.0).to_array(),
             swept.max.extend(0.0).to_array(),
         ];
         let mut shared = Vec::new();
-        for flow in &self.flows {
+        for (flow, boxes) in self.flows.iter().zip(boxes) {
             let of_images = HEAD_ROWS + COPY_ROWS * copies + shared.len();
-            rows.extend(flow.copy_rows(progress, begin, of_images));
+            rows.extend(flow.copy_rows(until, &boxes, begin, of_images));
             shared.extend(flow.shared_rows(begin, grid_of));
             begin += flow.texel_count();
         }
@@ -172,30 +180,27 @@ impl ClusterFlow<'_> {
         }
     }
 
-    /// The rows of its copies, whose texels begin at `begin` and whose images at row `of_images`.
-    fn copy_rows(&self, progress: f32, begin: usize, of_images: usize) -> Vec<[f32; 4]> {
-        let until = f64::from(progress);
-        let last = self.steps.partition_point(|step| step.start < until);
-        let swept = self.swept(until);
+    /// The rows of its copies, which move nothing outside `boxes` until a time. Its texels begin at `begin`, the rows
+    /// of its images at `of_images`.
+    fn copy_rows(
+        &self,
+        until: f64,
+        boxes: &[Aabb],
+        begin: usize,
+        of_images: usize,
+    ) -> Vec<[f32; 4]> {
+        let last = self.steps.partition_point(|step| step.start < until) as f32 - 1.0;
         let blocks = begin + self.step_texels();
         let blocks_of_blocks = blocks + self.steps.len().div_ceil(BLOCK);
         let head = [begin, blocks, blocks_of_blocks, self.movers.len()].map(|n| n as f32);
-        let rows = self.copies.iter().flat_map(|signs| {
-            let Aabb { min, max } = mirrored(swept, *signs);
-            let acting = [
-                last as f32 - 1.0,
-                self.images.len() as f32,
-                of_images as f32,
-                0.0,
-            ];
-            let signs = signs.as_vec3().extend(0.0).to_array();
-            [
-                head,
-                acting,
-                signs,
-                min.extend(0.0).to_array(),
-                max.extend(0.0).to_array(),
-            ]
+        let acting = [last, self.images.len() as f32, of_images as f32, 0.0];
+        let copies = self.copies.iter().zip(boxes);
+        let rows = copies.flat_map(|(signs, swept)| {
+            // Another cluster begins before.
+            let swept = if swept.is_empty() { NOWHERE } else { *swept };
+            let corners = [signs.as_vec3(), swept.min, swept.max];
+            let [signs, min, max] = corners.map(|v| v.extend(0.0).to_array());
+            [head, acting, signs, min, max]
         });
         rows.collect()
     }

@@ -98,16 +98,23 @@ impl<'a> Sweeping<'a> {
         let all = clusters(&sweeping.movers, sweeping.mirror).into_iter();
         let flows = all.map(|cluster| {
             let movers = cluster.tools.iter().filter_map(|i| sweeping.movers.get(*i));
-            let mut flow = ClusterFlow {
+            ClusterFlow {
                 movers: movers.cloned().collect(),
                 images: cluster.images,
                 copies: cluster.copies,
                 steps: Vec::new(),
-            };
-            flow.make_steps(sweeping.mirror, tools.most_steps);
-            flow
+            }
         });
-        sweeping.flows = flows.filter(|flow| !flow.steps.is_empty()).collect();
+        let mut flows: Vec<ClusterFlow<'_>> = flows.collect();
+        // Each is done in as many steps as is its share of those that are counted, as the sweeps of a document are.
+        let counts: Vec<usize> = flows.iter().map(|f| counted_steps(&f.movers)).collect();
+        let all: usize = counts.iter().sum();
+        for (flow, count) in flows.iter_mut().zip(counts) {
+            let most = (tools.most_steps * count).div_ceil(all.max(1));
+            flow.make_steps(sweeping.mirror, most);
+        }
+        flows.retain(|flow| !flow.steps.is_empty());
+        sweeping.flows = flows;
         sweeping
     }
 
@@ -201,18 +208,13 @@ impl<'a> Sweeping<'a> {
         if pieces > room {
             return [pieces, 0];
         }
-        let spans = spans(&sweeping.movers).into_iter();
-        let steps = spans.map(|span| counted_in(&sweeping.movers, span) as usize);
-        [pieces, steps.sum()]
+        [pieces, counted_steps(&sweeping.movers)]
     }
 
     /// The box outside which nothing moves until a time, metric local coordinates; empty if nothing moves at all.
-    pub(super) fn swept(&self, progress: f64) -> Aabb {
-        let copies = self.flows.iter().flat_map(|flow| {
-            let swept = flow.swept(progress);
-            flow.copies.iter().map(move |copy| mirrored(swept, *copy))
-        });
-        copies.fold(Aabb::EMPTY, Aabb::union)
+    fn swept(&self, progress: f64) -> Aabb {
+        let boxes = self.flows.iter().flat_map(|flow| flow.swept(progress));
+        boxes.fold(Aabb::EMPTY, Aabb::union)
     }
 
     /// The box outside which nothing moves until a time, template space.
@@ -294,8 +296,14 @@ impl<'a> Sweeping<'a> {
     }
 }
 
+/// Steps as the limits of a document count them.
+fn counted_steps(movers: &[Mover<'_>]) -> usize {
+    let spans = spans(movers).into_iter();
+    spans.map(|span| counted_in(movers, span) as usize).sum()
+}
+
 /// A box mirrored by the signs of its axes; an empty one stays empty.
-pub(super) fn mirrored(own: Aabb, signs: DVec3) -> Aabb {
+fn mirrored(own: Aabb, signs: DVec3) -> Aabb {
     if own.is_empty() {
         return own;
     }
@@ -383,8 +391,8 @@ impl ClusterFlow<'_> {
         Ball::around(&balls)
     }
 
-    /// The box outside which nothing moves until a time, as [`Sweeping::swept`], of the first copy.
-    pub(super) fn swept(&self, progress: f64) -> Aabb {
+    /// The boxes outside which its copies move nothing until a time, as [`Sweeping::swept`].
+    pub(super) fn swept(&self, progress: f64) -> Vec<Aabb> {
         let steps = self.steps.iter().filter(|step| step.start < progress);
         let balls = steps.flat_map(|step| self.moving(step)).map(|ball| {
             let middle = ball.middle.as_vec3();
@@ -394,7 +402,9 @@ impl ClusterFlow<'_> {
                 max: middle + radius,
             }
         });
-        balls.fold(Aabb::EMPTY, Aabb::union)
+        let swept = balls.fold(Aabb::EMPTY, Aabb::union);
+        let copies = self.copies.iter();
+        copies.map(|signs| mirrored(swept, *signs)).collect()
     }
 
     /// As [`Sweeping::fields_at`], of the first copy, at a place in metric local coordinates.
@@ -421,4 +431,33 @@ impl ClusterFlow<'_> {
 pub(super) fn turns_of(points: usize) -> usize {
     let pieces = points.saturating_sub(1);
     pieces.div_ceil(PIECES_AT_ONCE).max(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::displace::MOST_STEPS;
+
+    /// A wide coating past a thin one, twice and far apart: the clusters share the steps of the sweep.
+    #[test]
+    fn clusters_share_the_steps_of_their_sweep() {
+        let ball = |radius: f32, coat: f32, keys: &[Vec3]| SweepTool {
+            shape: Some(ToolShape::Ball { radius }),
+            coat,
+            path: keys.iter().map(|at| PathKey::at(*at)).collect(),
+            ..SweepTool::default()
+        };
+        let pair = |y: f32| {
+            let ends = [-3.5, 4.5].map(|x| Vec3::new(x, y, 0.5));
+            let middle = [Vec3::new(0.5, y, 0.5)];
+            [ball(0.15, 2.0, &ends), ball(0.005, 0.01, &middle)]
+        };
+        let tools = SweepTools {
+            tools: [pair(-4.0), pair(5.0)].concat(),
+            ..SweepTools::default()
+        };
+        let sweeping = Sweeping::new(&tools, Vec3::ONE);
+        let steps: Vec<usize> = sweeping.flows.iter().map(|f| f.steps.len()).collect();
+        assert_eq!(steps, [MOST_STEPS / 2; 2]);
+    }
 }

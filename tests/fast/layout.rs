@@ -1,7 +1,10 @@
 //! The structs of `shaders/types.wgsl` and those of `render::gpu_types` agree by name, order, offset and size.
 
+use fabrica::data::Resources;
+use fabrica::document::Document;
 use fabrica::render::gpu_types;
 use fabrica::render::programs;
+use serde_json::json;
 use std::collections::BTreeMap;
 use wgpu::naga;
 
@@ -213,4 +216,31 @@ fn constants_agree() {
     }
     assert_eq!(found, expected);
     assert_eq!(numbers, bodies);
+}
+
+/// As many sweeps as a document may have, of as many tools, each by itself with its image, along curves of as many
+/// points: there is room for what all of them hold.
+#[test]
+fn the_pool_has_room_for_all_templates() {
+    let tools: Vec<_> = [0.2, 0.4, 0.6, 0.8]
+        .iter()
+        .map(|y| json!({ "radius": 0.02, "coat": 0.02, "path": [[0.2, y, 0.5], [0.25, y, 0.5]] }))
+        .collect();
+    let curve: Vec<_> = (0..9)
+        .map(|i| [0.1 * f64::from(i) + 0.1, 0.5 + 0.01 * f64::from(i)])
+        .collect();
+    let sweep = json!({ "kind": "sweep", "curve": { "points": curve }, "params": { "mirror": "x", "tools": tools } });
+    let count = gpu_types::MAX_TEMPLATES;
+    let document = json!({ "fabrica": 1, "templates": vec![sweep; count] });
+    let document = Document::from_value(document).expect("a document");
+    assert_eq!(document.notices(), []);
+    let templates = &document.illustration().templates;
+    let packed = gpu_types::Templates::pack(templates, &Resources::default());
+    assert_eq!(packed.count as usize, count);
+    for (i, template) in packed.items.iter().enumerate() {
+        assert!(template.curve > 0, "the curve of {i}");
+        assert!(template.held > 0, "the tools of {i}");
+        let copies = packed.pool[template.held as usize][0];
+        assert_eq!(copies, 8.0, "each tool of {i} is alone, on either side");
+    }
 }

@@ -16,7 +16,7 @@ pub const TABLE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 
 /// Templates of one document at most (spec/contract.md, "Limits").
 pub const MAX_TEMPLATES: usize = 32;
-/// Entries of [`Templates::pool`], for the control points and curves of all templates together.
+/// Entries of [`Templates::pool`], for what all templates hold together: curves, control points, tools of sweeps.
 pub const POOL: usize = 2816;
 
 /// An affine map, by the rows of its matrix: three factors and the offset of each coordinate of the result.
