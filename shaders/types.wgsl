@@ -218,6 +218,12 @@ const BODY_LAYER: f32 = 0.05;
 /// Opacities from which a body is solid, and below which it is hidden.
 const BODY_SOLID: f32 = 0.995;
 const BODY_HIDDEN: f32 = 0.005;
+/// Voxels along a side of a brick whose shares are made together, and how many bricks a row of the dispatch has.
+const BODY_BRICK: u32 = 8u;
+const BODY_ROW: u32 = 1024u;
+/// In place of the label that fills a brick: more than one, or none that is a body.
+const BODY_MIXED: u32 = 256u;
+const BODY_NOTHING: u32 = 257u;
 
 /// How opacity follows the deformation.
 const OPACITY_CONSTANCY: u32 = 0u;

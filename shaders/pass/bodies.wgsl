@@ -7,30 +7,57 @@
 /// Shares of segments drawn as bodies, 0 to 1, in the layout that `body_shares` is read in.
 @group(3) @binding(1) var shares_out: texture_storage_3d<rgba8unorm, write>;
 
-/// One voxel: the labels around it, weighted 1 2 1 along each axis.
+/// Bricks to write. x: 10 bits each of its place along the axes; y: the label that all its voxels and those around it
+/// have, or else BODY_MIXED or BODY_NOTHING.
+@group(3) @binding(2) var<storage, read> bricks: array<vec2u>;
+
+/// A part of a brick: 2 x 2 x 2 voxels.
 @compute @workgroup_size(4, 4, 4)
-fn share_bodies(@builtin(global_invocation_id) at: vec3u) {
-    let size = textureDimensions(shares_out);
-    if any(at >= size) {
+fn share_bodies(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) part: vec3u) {
+    let number = group.x + BODY_ROW * group.y;
+    if number >= arrayLength(&bricks) {
         return;
     }
+    let brick = bricks[number];
+    let first = BODY_BRICK * vec3u(brick.x & 1023u, (brick.x >> 10u) & 1023u, brick.x >> 20u) + 2u * part;
+    let size = textureDimensions(shares_out);
     // The shares may be coarser than the labels; both span the same box.
     let dims = vec3f(subject.label_dims.xyz);
-    let middle = vec3i(floor((vec3f(at) + 0.5) / vec3f(size) * dims));
-    let last = vec3i(dims) - 1;
+    for (var i = 0u; i < 8u; i++) {
+        let at = first + vec3u(i & 1u, (i >> 1u) & 1u, i >> 2u);
+        if any(at >= size) {
+            continue;
+        }
+        var share = vec4f(0.0);
+        if brick.y == BODY_MIXED {
+            share = share_around(vec3i(floor((vec3f(at) + 0.5) / vec3f(size) * dims)), vec3i(dims) - 1);
+        } else if brick.y < BODY_MIXED {
+            share = share_of(brick.y);
+        }
+        textureStore(shares_out, at, share);
+    }
+}
+
+/// Shares of one voxel: of the labels around it, weighted 1 2 1 along each axis.
+fn share_around(middle: vec3i, last: vec3i) -> vec4f {
     var sum = vec4f(0.0);
     for (var i = 0; i < 27; i++) {
         let offset = vec3i(i % 3, (i / 3) % 3, i / 9) - 1;
         let label = textureLoad(labels, clamp(middle + offset, vec3i(0), last), 0).x;
-        let opacity = body_looks.items[label & 255u].a;
         let weight = 1.0 / f32(8u << u32(dot(abs(offset), vec3i(1))));
-        let share = vec4f(
-            1.0,
-            opacity,
-            select(0.0, 1.0, opacity >= BODY_SOLID),
-            select(0.0, 1.0, opacity < BODY_HIDDEN),
-        );
-        sum += select(vec4f(0.0), share * weight, opacity >= 0.0);
+        sum += share_of(label & 255u) * weight;
     }
-    textureStore(shares_out, at, sum);
+    return sum;
+}
+
+/// Shares of a place that is all of one label.
+fn share_of(label: u32) -> vec4f {
+    let opacity = body_looks.items[label].a;
+    let share = vec4f(
+        1.0,
+        opacity,
+        select(0.0, 1.0, opacity >= BODY_SOLID),
+        select(0.0, 1.0, opacity < BODY_HIDDEN),
+    );
+    return select(vec4f(0.0), share, opacity >= 0.0);
 }

@@ -112,6 +112,18 @@ pub(crate) async fn listed(tab: &Tab) -> String {
     tab.eval(lines).await
 }
 
+/// Dismisses the messages over the picture. They go by themselves too, but stay long enough to be read.
+pub(crate) async fn without_messages(tab: &Tab) {
+    listed(tab).await;
+    let script = "(() => {
+        const viewer = window.fabrica.viewer;
+        const found = JSON.parse(viewer.mirrored() || '[]').find((control) => control.name === 'Dismiss');
+        if (found) viewer.act(found.id, 'click', '');
+        return !viewer.controls().includes('Alert\\t');
+    })()";
+    tab.wait_until(script, 60).await;
+}
+
 /// Every control and text that the page shows.
 pub(crate) async fn controls(tab: &Tab) -> Vec<Control> {
     let text = listed(tab).await;

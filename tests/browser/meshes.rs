@@ -2,7 +2,7 @@
 
 use super::hand::{
     CTRL, changed, click, clipboard, document, find, focus, hear, kept, listed, mark, press,
-    press_with, write,
+    press_with, without_messages, write,
 };
 use super::harness::Tab;
 use super::*;
@@ -161,9 +161,7 @@ fn box_stl(middle: [f32; 3], half: [f32; 3]) -> Vec<u8> {
 async fn object(tab: &Tab, name: &str) -> image::RgbaImage {
     press(tab, "Escape").await;
     tab.settled().await;
-    listed(tab).await;
-    tab.wait_until("!window.fabrica.viewer.controls().includes('Alert\\t')", 60)
-        .await;
+    without_messages(tab).await;
     object_part(&tab.picture(name).await)
 }
 

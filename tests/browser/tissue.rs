@@ -20,10 +20,7 @@ fn serve(session: &Session, path: &Path, name: &str) -> String {
 
 /// The picture of a tab between its bars.
 async fn object(tab: &Tab, name: &str) -> image::RgbaImage {
-    // The messages over the picture go by themselves.
-    hand::listed(tab).await;
-    tab.wait_until("!window.fabrica.viewer.controls().includes('Alert\\t')", 60)
-        .await;
+    hand::without_messages(tab).await;
     let page = tab.picture(name).await;
     image::imageops::crop_imm(&page, 30, 90, 300, 240).to_image()
 }

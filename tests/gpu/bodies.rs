@@ -116,6 +116,25 @@ fn a_look_of_nothing_changes_nothing() {
     );
 }
 
+/// A scene that has drawn other bodies before draws as one that has not: nothing of what they filled is left.
+#[test]
+fn bodies_leave_nothing_behind() {
+    let [studio, _] = studios(gpu());
+    let twist = r#"{"kind":"twist","size":[1,1,1],"params":{"angle":0.6}}"#;
+    for segments in [
+        r##""shell":{"opacity":1,"color":"#2030e0"}"##,
+        r##""core":{"opacity":1,"color":"#20c030"}"##,
+        "",
+        r#""shell":0.4"#,
+    ] {
+        let shown = document(segments, twist, true);
+        let [fresh, _] = studios(gpu());
+        let (after, expected) = (drawn(&studio, &shown), drawn(&fresh, &shown));
+        assert_eq!(largest_difference(&after, &expected), 0, "{segments}");
+        assert_eq!(seen(&expected).0 == 0, segments.is_empty(), "{segments}");
+    }
+}
+
 #[test]
 fn looks_of_segments_survive_the_link() {
     let json = r##"{"fabrica":1,"subject":{"builtin":"bar"},"look":{"segments":{"a/b":0.25,"core":{"color":"#20c030","opacity":0.5},"shell":0}},"steps":[{"set":{"/look/segments/shell":1}}]}"##;

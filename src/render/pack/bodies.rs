@@ -49,11 +49,20 @@ impl Bodies {
         *self != Self::NONE
     }
 
+    /// The labels that are drawn as bodies or hidden: bit `n` for label `n`.
+    pub(crate) fn labels(&self) -> [u32; 8] {
+        self.labels_from(0.0)
+    }
+
     /// The labels that are drawn as bodies and not hidden: bit `n` for label `n`.
     pub(crate) fn visible(&self) -> [u32; 8] {
+        self.labels_from(BODY_HIDDEN)
+    }
+
+    fn labels_from(&self, least_opacity: f32) -> [u32; 8] {
         let mut set = [0; 8];
         for (label, item) in self.items.iter().enumerate() {
-            if item[3] >= BODY_HIDDEN {
+            if item[3] >= least_opacity {
                 set[label / 32] |= 1 << (label % 32);
             }
         }

@@ -752,6 +752,14 @@ pub const BODY_LAYER: f32 = crate::document::SegmentLook::LAYER;
 pub const BODY_SOLID: f32 = 0.995;
 /// Opacity below which a body is hidden.
 pub const BODY_HIDDEN: f32 = 0.005;
+/// Voxels along a side of a brick whose shares of bodies are made together.
+pub const BODY_BRICK: u32 = 8;
+/// Bricks in a row of the dispatch that makes shares of bodies.
+pub const BODY_ROW: u32 = 1024;
+/// In place of the label that fills a brick: more than one.
+pub const BODY_MIXED: u32 = 256;
+/// In place of the label that fills a brick: none that is a body.
+pub const BODY_NOTHING: u32 = 257;
 
 /// [`Look::opacity_mode`]: a surface keeps its opacity.
 pub const OPACITY_CONSTANCY: u32 = 0;

@@ -1,19 +1,22 @@
 //! Segments that are drawn as bodies of their own, on the GPU: solid, see-through or hidden, whatever their values say.
 
+use super::body_bricks::fillings;
 use crate::render::device::bindings::{encoder, entry};
-use crate::render::device::buffers::uniform_buffer;
+use crate::render::device::buffers::{storage_buffer, uniform_buffer};
 use crate::render::device::cases::Cases;
 use crate::render::device::gpu::Gpu;
 use crate::render::device::pipelines::compute_pipeline;
 use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::volume_texture;
-use crate::render::pack::gpu_types::Bodies;
-use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
+use crate::render::pack::gpu_types::{BODY_BRICK, BODY_NOTHING, BODY_ROW, Bodies};
+use crate::render::pack::stamps::{Stamp, Stamped};
+use crate::render::subject::held_view::HeldView;
 use crate::render::subject::textures::SubjectTextures;
 use glam::UVec3;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock, Weak};
 
-/// Voxels of the shares at most, four bytes each: labels on a finer grid are read every second or third voxel.
+/// Voxels of the shares at most, four bytes each: labels on a finer grid are read every second or third voxel. Of each
+/// axis there are fewer than 1024 bricks then, as no texture is longer than 2048 texels.
 const MOST_VOXELS: u64 = 1 << 25;
 
 /// The compute program that shares places out to bodies; compiled when the first document draws any.
@@ -37,7 +40,10 @@ pub(crate) struct BodyTextures {
     /// Stamp of the texture.
     pub stamp: Stamp,
     dims: UVec3,
-    made_from: MadeFrom<2>,
+    /// Which of its bricks hold shares; the others are zero.
+    is_written: Vec<bool>,
+    /// The labels and the stamp of the bodies that all is made from.
+    made_from: (Weak<HeldView>, Stamp),
 }
 
 impl BodyTextures {
@@ -48,7 +54,8 @@ impl BodyTextures {
             view: texture_of(gpu, UVec3::ONE),
             stamp: 0,
             dims: UVec3::ONE,
-            made_from: MadeFrom::default(),
+            is_written: Vec::new(),
+            made_from: Default::default(),
         }
     }
 
@@ -60,16 +67,25 @@ impl BodyTextures {
         subject: &SubjectTextures,
         bodies: &Stamped<Bodies>,
     ) {
-        if self.made_from.is_stale([subject.stamp, bodies.stamp()]) {
+        // Subjects that differ by their meshes alone have the same labels.
+        let (labels, stamp) = (Arc::downgrade(&subject.label_view), bodies.stamp());
+        if !labels.ptr_eq(&self.made_from.0) || stamp != self.made_from.1 {
+            self.made_from = (labels, stamp);
             gpu.queue
                 .write_buffer(&self.uniform, 0, bytemuck::bytes_of(bodies.get()));
             if bodies.get().is_any() {
-                self.make(gpu, program.get(gpu), subject);
+                self.make(gpu, program.get(gpu), subject, bodies.get());
             }
         }
     }
 
-    fn make(&mut self, gpu: &Gpu, pipeline: &wgpu::ComputePipeline, subject: &SubjectTextures) {
+    fn make(
+        &mut self,
+        gpu: &Gpu,
+        pipeline: &wgpu::ComputePipeline,
+        subject: &SubjectTextures,
+        bodies: &Bodies,
+    ) {
         let [x, y, z, _] = subject.uniform.label_dims.map(|n| n as u32);
         let fine = UVec3::new(x, y, z).max(UVec3::ONE);
         let dims = (1..)
@@ -80,7 +96,13 @@ impl BodyTextures {
             self.view = texture_of(gpu, dims);
             self.stamp += 1;
             self.dims = dims;
+            self.is_written.clear();
         }
+        let bricks = self.bricks_to_write(subject, [fine, dims], bodies);
+        if bricks.is_empty() {
+            return;
+        }
+        let list = storage_buffer(gpu, "bricks of bodies", &bricks);
         let device = &gpu.device;
         let group = |index, entries: &[wgpu::BindGroupEntry<'_>]| {
             device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -94,6 +116,7 @@ impl BodyTextures {
             &[
                 entry(0, self.uniform.as_entire_binding()),
                 entry(1, wgpu::BindingResource::TextureView(&self.view)),
+                entry(2, list.as_entire_binding()),
             ],
         );
         let labels = group(
@@ -109,10 +132,34 @@ impl BodyTextures {
             work.set_pipeline(pipeline);
             work.set_bind_group(1, &labels, &[]);
             work.set_bind_group(3, &shares, &[]);
-            let groups = dims.map(|n| n.div_ceil(4));
-            work.dispatch_workgroups(groups.x, groups.y, groups.z);
+            let number = bricks.len() as u32;
+            work.dispatch_workgroups(number.min(BODY_ROW), number.div_ceil(BODY_ROW), 1);
         }
         gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Bricks with shares, and those that had some and have none any more, as the shader takes them: where they lie and
+    /// what fills them.
+    fn bricks_to_write(
+        &mut self,
+        subject: &SubjectTextures,
+        [labels, shares]: [UVec3; 2],
+        bodies: &Bodies,
+    ) -> Vec<[u32; 2]> {
+        let sets = subject.label_bricks.as_deref();
+        let fillings = fillings(sets, [labels, shares], &bodies.labels());
+        self.is_written.resize(fillings.len(), false);
+        let dims = shares.map(|n| n.div_ceil(BODY_BRICK));
+        let mut bricks = Vec::new();
+        for (i, (filling, was_written)) in (0..).zip(fillings.into_iter().zip(&mut self.is_written))
+        {
+            let has_any = filling != BODY_NOTHING;
+            if std::mem::replace(was_written, has_any) || has_any {
+                let (x, y, z) = (i % dims.x, i / dims.x % dims.y, i / (dims.x * dims.y));
+                bricks.push([x | y << 10 | z << 20, filling]);
+            }
+        }
+        bricks
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod baked;
 pub(crate) mod bodies;
+mod body_bricks;
 pub(crate) mod held;
 pub(crate) mod inputs;
 pub(crate) mod kept;

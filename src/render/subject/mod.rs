@@ -2,7 +2,7 @@
 
 pub(crate) mod bricks;
 mod figure;
-mod held_view;
+pub(crate) mod held_view;
 mod mesh;
 pub(crate) mod plate;
 mod reduce;
