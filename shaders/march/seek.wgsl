@@ -100,6 +100,42 @@ fn leap(ray: Ray, walk: ptr<function, Walk>) {
     }
 }
 
+/// Where a cut parts tissue from nothing, the tissue may be thinner than a step: the rim of a flap. Over the cut the map
+/// jumps: its two sides come from places so many times as far apart as the samples are.
+const TORN: f32 = 8.0;
+/// Halvings of a step that such a cut lies in.
+const SEARCH_TURNS: u32 = 5u;
+
+/// A search for a cut between two samples in which nothing is seen.
+struct Search {
+    /// Distances from the eye between which the cut lies.
+    low: f32,
+    high: f32,
+    /// The second sample, and where the first came from.
+    end: Sample,
+    before: vec3f,
+    /// Distance of the second sample from the eye.
+    t_end: f32,
+    /// Turns left.
+    turns: u32,
+}
+
+/// True if a cut lies between two samples that are `way` apart. Samples with empty cells between them count as one.
+fn is_torn_between(last: Sample, here: Sample, way: f32) -> bool {
+    let is_gap = (here.continuity < 0.0) != (last.continuity < 0.0);
+    return way > 0.1 * frame.step && (is_gap || distance(here.pos, last.pos) > TORN * way);
+}
+
+/// The search after a look at a place, which came from `pos`.
+fn narrowed(search: Search, pos: vec3f, t: f32) -> Search {
+    let is_behind = distance(pos, search.end.pos) < distance(pos, search.before);
+    var next = search;
+    next.low = select(t, search.low, is_behind);
+    next.high = select(search.high, t, is_behind);
+    next.turns--;
+    return next;
+}
+
 /// Seeks the next visible sample, or the first sample behind a visible one. False if the ray leaves the box of the
 /// object before such a sample.
 fn seek(ray: Ray, walk: ptr<function, Walk>) -> bool {
@@ -131,19 +167,38 @@ fn seek(ray: Ray, walk: ptr<function, Walk>) -> bool {
             }
         }
         if drawn_kinds != 0u {
+            var search: Search;
             loop {
                 if (*walk).mask == 0u || (*walk).t >= t_stop || is_found {
                     break;
                 }
-                let last = (*walk).here.pos;
-                (*walk).here = sample_mapped(map_point(ray.origin + ray.dir * (*walk).t, (*walk).mask));
+                let last = (*walk).here;
+                let is_searching = search.turns > 0u;
+                let mask = select((*walk).mask, (*walk).mask | (*walk).mask_before, is_searching);
+                (*walk).here = sample_mapped(map_point(ray.origin + ray.dir * (*walk).t, mask));
                 is_found = (*walk).here.opacity > VISIBLE || (*walk).before.opacity > VISIBLE;
                 if is_found {
                     break;
                 }
+                if is_searching {
+                    search = narrowed(search, (*walk).here.pos, (*walk).t);
+                } else if is_torn_between(last, (*walk).here, (*walk).t - (*walk).t_before) {
+                    search = Search((*walk).t_before, (*walk).t, (*walk).here, last.pos, (*walk).t, SEARCH_TURNS);
+                }
+                if search.turns > 0u {
+                    (*walk).t = 0.5 * (search.low + search.high);
+                    continue;
+                }
+                var before = last.pos;
+                if is_searching {
+                    // Nothing there: on from the end of the step.
+                    (*walk).here = search.end;
+                    (*walk).t = search.t_end;
+                    before = search.before;
+                }
                 // The step follows the Jacobian: compressed tissue gets more samples, stretched tissue fewer.
                 let way = max((*walk).t - (*walk).t_before, 0.25 * frame.step);
-                let stretch = clamp(distance((*walk).here.pos, last) / way, 0.6, 3.0);
+                let stretch = clamp(distance((*walk).here.pos, before) / way, 0.6, 3.0);
                 (*walk).t_before = (*walk).t;
                 (*walk).mask_before = (*walk).mask;
                 (*walk).t += frame.step / stretch;

@@ -97,10 +97,12 @@ fn march(asked: Ray, pixel: vec2f) -> Marched {
             gains.here *= keeps;
         }
         let exponent = opacity_exponent(map.jacobian, ray.dir);
+        // Tissue that thins out behind a cut is as opaque as at the cut, wherever in it the sample lies.
+        let at_edge = select(0.0, crossing.edge.opacity, crossing.is_jump && crossing.is_rising);
         let stretch = Stretch(
             crossing.t_edge,
             walk.before.opacity * gains.before,
-            walk.here.opacity * gains.behind,
+            max(walk.here.opacity, at_edge) * gains.behind,
             exponent,
         );
         gain_before = gains.here;
