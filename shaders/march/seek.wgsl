@@ -100,8 +100,8 @@ fn leap(ray: Ray, walk: ptr<function, Walk>) {
     }
 }
 
-/// Where a cut parts tissue from nothing, the tissue may be thinner than a step: the rim of a flap. Over the cut the map
-/// jumps: its two sides come from places so many times as far apart as the samples are.
+/// Where a cut parts tissue from nothing, the tissue may be thinner than a step: the rim of a flap. Over the cut the
+/// map jumps: its two sides come from places so many times as far apart as the samples are.
 const TORN: f32 = 8.0;
 /// Halvings of a step that such a cut lies in.
 const SEARCH_TURNS: u32 = 5u;

@@ -47,9 +47,9 @@ fn difference(a: &Image, b: &Image, bound: u8) -> (u8, usize) {
 }
 
 /// The rim of a flap runs out into the skin's soft border, where tissue is thinner than a step of the ray. It is seen
-/// as far as it is dense, wherever the samples lie: no stripes and no gaps along the rim. Rows of pixels that end and go
-/// on within six pixels are counted; four are of leaves and of the flap before the fruit, and 25 there were when rays
-/// did not search for cuts.
+/// as far as it is dense, wherever the samples lie: no stripes and no gaps along the rim. Rows of pixels that end and
+/// go on within six pixels are counted; four are of leaves and of the flap before the fruit, and 25 there were when
+/// rays did not search for cuts.
 #[test]
 fn the_rim_of_a_flap_has_no_gaps() {
     let peel = r#"{ "fabrica": 1, "subject": { "builtin": "tomato" }, "look": { "background": "none" },
