@@ -9,11 +9,10 @@ use crate::render::device::pipelines::compute_pipeline;
 use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::volume_texture;
 use crate::render::pack::gpu_types::{BODY_BRICK, BODY_NOTHING, BODY_ROW, Bodies};
-use crate::render::pack::stamps::{Stamp, Stamped};
-use crate::render::subject::held_view::HeldView;
+use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
 use crate::render::subject::textures::SubjectTextures;
 use glam::UVec3;
-use std::sync::{Arc, OnceLock, Weak};
+use std::sync::OnceLock;
 
 /// Voxels of the shares at most, four bytes each: labels on a finer grid are read every second or third voxel. Of each
 /// axis there are fewer than 1024 bricks then, as no texture is longer than 2048 texels.
@@ -42,8 +41,7 @@ pub(crate) struct BodyTextures {
     dims: UVec3,
     /// Which of its bricks hold shares; the others are zero.
     is_written: Vec<bool>,
-    /// The labels and the stamp of the bodies that all is made from.
-    made_from: (Weak<HeldView>, Stamp),
+    made_from: MadeFrom<2>,
 }
 
 impl BodyTextures {
@@ -55,7 +53,7 @@ impl BodyTextures {
             stamp: 0,
             dims: UVec3::ONE,
             is_written: Vec::new(),
-            made_from: Default::default(),
+            made_from: MadeFrom::default(),
         }
     }
 
@@ -67,10 +65,7 @@ impl BodyTextures {
         subject: &SubjectTextures,
         bodies: &Stamped<Bodies>,
     ) {
-        // Subjects that differ by their meshes alone have the same labels.
-        let (labels, stamp) = (Arc::downgrade(&subject.label_view), bodies.stamp());
-        if !labels.ptr_eq(&self.made_from.0) || stamp != self.made_from.1 {
-            self.made_from = (labels, stamp);
+        if self.made_from.is_stale([subject.stamp, bodies.stamp()]) {
             gpu.queue
                 .write_buffer(&self.uniform, 0, bytemuck::bytes_of(bodies.get()));
             if bodies.get().is_any() {

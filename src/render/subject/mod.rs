@@ -2,7 +2,7 @@
 
 pub(crate) mod bricks;
 mod figure;
-pub(crate) mod held_view;
+mod held_view;
 mod mesh;
 pub(crate) mod plate;
 mod reduce;
