@@ -103,32 +103,35 @@ fn leap(ray: Ray, walk: ptr<function, Walk>) {
 /// Where a cut parts tissue from nothing, the tissue may be thinner than a step: the rim of a flap. Over the cut the
 /// map jumps: its two sides come from places so many times as far apart as the samples are.
 const TORN: f32 = 8.0;
-/// Halvings of a step that such a cut lies in.
-const SEARCH_TURNS: u32 = 5u;
 
 /// A search for a cut between two samples in which nothing is seen.
 struct Search {
     /// Distances from the eye between which the cut lies.
     low: f32,
     high: f32,
-    /// The second sample, and where the first came from.
+    /// The samples before and behind the cut.
+    before: Sample,
     end: Sample,
-    before: vec3f,
     /// Distance of the second sample from the eye.
     t_end: f32,
     /// Turns left.
     turns: u32,
 }
 
-/// True if a cut lies between two samples that are `way` apart. Samples with empty cells between them count as one.
-fn is_torn_between(last: Sample, here: Sample, way: f32) -> bool {
-    let is_gap = (here.continuity < 0.0) != (last.continuity < 0.0);
-    return way > 0.1 * frame.step && (is_gap || distance(here.pos, last.pos) > TORN * way);
+/// True if one of two samples lies in a gap and the other does not.
+fn are_parted(a: Sample, b: Sample) -> bool {
+    return (a.continuity < 0.0) != (b.continuity < 0.0);
 }
 
-/// The search after a look at a place, which came from `pos`.
-fn narrowed(search: Search, pos: vec3f, t: f32) -> Search {
-    let is_behind = distance(pos, search.end.pos) < distance(pos, search.before);
+/// True if a cut lies between two samples that are `way` apart. Samples with empty cells between them count as one.
+fn is_torn_between(last: Sample, here: Sample, way: f32) -> bool {
+    return way > 0.1 * frame.step && (are_parted(last, here) || distance(here.pos, last.pos) > TORN * way);
+}
+
+/// The search after a look at a place.
+fn narrowed(search: Search, found: Sample, t: f32) -> Search {
+    let is_nearer = distance(found.pos, search.end.pos) < distance(found.pos, search.before.pos);
+    let is_behind = select(is_nearer, !are_parted(found, search.end), are_parted(search.before, search.end));
     var next = search;
     next.low = select(t, search.low, is_behind);
     next.high = select(search.high, t, is_behind);
@@ -181,9 +184,10 @@ fn seek(ray: Ray, walk: ptr<function, Walk>) -> bool {
                     break;
                 }
                 if is_searching {
-                    search = narrowed(search, (*walk).here.pos, (*walk).t);
-                } else if is_torn_between(last, (*walk).here, (*walk).t - (*walk).t_before) {
-                    search = Search((*walk).t_before, (*walk).t, (*walk).here, last.pos, (*walk).t, SEARCH_TURNS);
+                    search = narrowed(search, (*walk).here, (*walk).t);
+                } else if frame.search_turns > 0u && is_torn_between(last, (*walk).here, (*walk).t - (*walk).t_before) {
+                    let turns = frame.search_turns;
+                    search = Search((*walk).t_before, (*walk).t, last, (*walk).here, (*walk).t, turns);
                 }
                 if search.turns > 0u {
                     (*walk).t = 0.5 * (search.low + search.high);
@@ -194,7 +198,7 @@ fn seek(ray: Ray, walk: ptr<function, Walk>) -> bool {
                     // Nothing there: on from the end of the step.
                     (*walk).here = search.end;
                     (*walk).t = search.t_end;
-                    before = search.before;
+                    before = search.before.pos;
                 }
                 // The step follows the Jacobian: compressed tissue gets more samples, stretched tissue fewer.
                 let way = max((*walk).t - (*walk).t_before, 0.25 * frame.step);

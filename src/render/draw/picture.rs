@@ -110,7 +110,10 @@ impl PictureJob {
         mut on_batch: impl FnMut(u64) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let pipeline = self.passes.raycast.pipeline(&self.gpu, key);
-        let frame = self.frame(band.first, index);
+        let frame = match baked {
+            Some(_) => self.frame(band.first, index).of_what_moves(),
+            None => self.frame(band.first, index),
+        };
         let frame_group = frame_group(&self.gpu, &self.passes.layouts, &frame);
         let batch_tiles = match self.gpu.is_software() && self.gpu.waits() {
             true => SOFTWARE_BATCH_TILES,

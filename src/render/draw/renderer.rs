@@ -821,7 +821,7 @@ impl Renderer {
         let view = View::new(&illustration.camera, small);
         let finished = View::new(&illustration.camera, targets.size);
         let detail = studio.subject.frame.detail;
-        let frame = frame_of(&view, &finished, scene.bounds(), detail, 0);
+        let frame = frame_of(&view, &finished, scene.bounds(), detail, 0).of_what_moves();
         let [small_width, small_height] = small.map(|side| side as f32);
         let shot = Shot {
             key,

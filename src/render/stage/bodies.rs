@@ -10,6 +10,7 @@ use crate::render::device::programs::{ProgramId, module};
 use crate::render::device::textures::volume_texture;
 use crate::render::pack::gpu_types::{BODY_BRICK, BODY_NOTHING, BODY_ROW, Bodies};
 use crate::render::pack::stamps::{MadeFrom, Stamp, Stamped};
+use crate::render::subject::bricks::LabelSet;
 use crate::render::subject::textures::SubjectTextures;
 use glam::UVec3;
 use std::sync::OnceLock;
@@ -41,6 +42,9 @@ pub(crate) struct BodyTextures {
     dims: UVec3,
     /// Which of its bricks hold shares; the others are zero.
     is_written: Vec<bool>,
+    /// What fills the bricks, and the stamp of the subject and the labels of bodies that it was found for: another
+    /// opacity or colour of a body leaves it.
+    filled: Option<(Stamp, LabelSet, Vec<u32>)>,
     made_from: MadeFrom<2>,
 }
 
@@ -53,6 +57,7 @@ impl BodyTextures {
             stamp: 0,
             dims: UVec3::ONE,
             is_written: Vec::new(),
+            filled: None,
             made_from: MadeFrom::default(),
         }
     }
@@ -141,13 +146,24 @@ impl BodyTextures {
         [labels, shares]: [UVec3; 2],
         bodies: &Bodies,
     ) -> Vec<[u32; 2]> {
-        let sets = subject.label_bricks.as_deref();
-        let fillings = fillings(sets, [labels, shares], &bodies.labels());
+        let drawn = bodies.labels();
+        let found_before = self.filled.take();
+        let is_same =
+            |filled: &(Stamp, LabelSet, Vec<u32>)| (filled.0, filled.1) == (subject.stamp, drawn);
+        let (.., fillings) = self
+            .filled
+            .insert(found_before.filter(is_same).unwrap_or_else(|| {
+                let sets = subject.label_bricks.as_deref();
+                (
+                    subject.stamp,
+                    drawn,
+                    fillings(sets, [labels, shares], &drawn),
+                )
+            }));
         self.is_written.resize(fillings.len(), false);
         let dims = shares.map(|n| n.div_ceil(BODY_BRICK));
         let mut bricks = Vec::new();
-        for (i, (filling, was_written)) in (0..).zip(fillings.into_iter().zip(&mut self.is_written))
-        {
+        for (i, (&filling, was_written)) in (0..).zip(fillings.iter().zip(&mut self.is_written)) {
             let has_any = filling != BODY_NOTHING;
             if std::mem::replace(was_written, has_any) || has_any {
                 let (x, y, z) = (i % dims.x, i / dims.x % dims.y, i / (dims.x * dims.y));
