@@ -27,8 +27,13 @@ pub enum Role {
 /// Where the data for a want come from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
-    /// Made by the program, by name.
-    Builtin(String),
+    /// Made by the program.
+    Builtin {
+        /// The name of the subject or the tool.
+        name: String,
+        /// Which of its revisions, from 1.
+        revision: u32,
+    },
     /// Shaped by the program, stroke by stroke; it may begin with a file.
     Clay(Arc<Clay>),
     /// A file. One without an address is supplied by the reader, who is asked for it by the author's name.
@@ -84,7 +89,10 @@ impl Want {
                     name: first.map(|mesh| mesh.name.clone()).unwrap_or_default(),
                 }
             }
-            SubjectRef::Builtin { name } => Source::Builtin(name.clone()),
+            SubjectRef::Builtin { name, revision } => Source::Builtin {
+                name: name.clone(),
+                revision: *revision,
+            },
             SubjectRef::Clay(clay) => Source::Clay(Arc::clone(clay)),
             SubjectRef::Address {
                 src, sha256, name, ..
@@ -175,7 +183,10 @@ impl Want {
         let want = match &object.source {
             ObjectSource::Builtin(name) => Self {
                 role: Role::Object,
-                source: Source::Builtin((*name).to_owned()),
+                source: Source::Builtin {
+                    name: (*name).to_owned(),
+                    revision: 1,
+                },
                 reading: Reading::default(),
                 meshes: Vec::new(),
             },
@@ -227,7 +238,7 @@ impl Want {
     /// True if both mean one file, read in one way, in one role, whatever they call it and whether or not it carves.
     pub fn is_same_mesh(&self, other: &Self) -> bool {
         let is_same_source = match (&self.source, &other.source) {
-            (Source::Builtin(own), Source::Builtin(theirs)) => own == theirs,
+            (Source::Builtin { .. }, Source::Builtin { .. }) => self.source == other.source,
             (Source::File { .. }, Source::File { .. }) => {
                 self.src() == other.src() && self.sha256() == other.sha256()
             }
@@ -243,7 +254,7 @@ impl Want {
     /// The name that the reader is asked for the file by, or that of what the program makes.
     pub fn name(&self) -> &str {
         match &self.source {
-            Source::Builtin(name) | Source::File { name, .. } => name,
+            Source::Builtin { name, .. } | Source::File { name, .. } => name,
             Source::Clay(clay) => clay.file().map_or("clay", |file| file.name),
         }
     }
@@ -252,14 +263,14 @@ impl Want {
     pub fn clay(&self) -> Option<&Arc<Clay>> {
         match &self.source {
             Source::Clay(clay) => Some(clay),
-            Source::Builtin(_) | Source::File { .. } => None,
+            Source::Builtin { .. } | Source::File { .. } => None,
         }
     }
 
     /// Address of the file, as written in the document; `None` without one.
     pub fn src(&self) -> Option<&str> {
         match &self.source {
-            Source::Builtin(_) => None,
+            Source::Builtin { .. } => None,
             Source::Clay(clay) => clay.file()?.src,
             Source::File { src, .. } => src.as_deref(),
         }
@@ -268,7 +279,7 @@ impl Want {
     /// SHA-256 that the document gives.
     pub fn sha256(&self) -> Option<&str> {
         match &self.source {
-            Source::Builtin(_) => None,
+            Source::Builtin { .. } => None,
             Source::Clay(clay) => clay.file()?.sha256,
             Source::File { sha256, .. } => sha256.as_deref(),
         }
@@ -390,7 +401,7 @@ mod tests {
         let read_with_it = &wants[0].reading.meshes;
         assert_eq!(read_with_it.len(), 4, "all are one subject");
         assert_eq!(read_with_it[3].src.as_deref(), Some("talus.stl"));
-        assert_eq!(wants[1].source, Source::Builtin("needle".to_owned()));
+        assert_eq!(wants[1].source, builtin("needle"));
         assert_eq!(wants[2].mesh_options(7).units, Some(Units::Inch));
         let Source::File { name, .. } = &wants[2].source else {
             panic!("a file");
@@ -420,6 +431,11 @@ mod tests {
         assert_eq!(wants[1].mesh_options(7).axes, Some(Axes::Ras));
     }
 
+    fn builtin(name: &str) -> Source {
+        let name = name.to_owned();
+        Source::Builtin { name, revision: 1 }
+    }
+
     #[test]
     fn beside_a_subject_all_meshes_are_wanted() {
         let wants = wanted(
@@ -427,6 +443,6 @@ mod tests {
         );
         let roles: Vec<Role> = wants.iter().map(|want| want.role).collect();
         assert_eq!(roles, [Role::Subject, Role::Mesh]);
-        assert_eq!(wants[0].source, Source::Builtin("head".to_owned()));
+        assert_eq!(wants[0].source, builtin("head"));
     }
 }

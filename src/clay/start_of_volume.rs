@@ -420,7 +420,10 @@ mod tests {
     fn clay_of(part: VoxelPart, has_all_walls: bool, detail: f64) -> Clay {
         Clay {
             from: ClayStart::Volume(Box::new(ClayVolume {
-                of: VoxelSource::Builtin("head".to_owned()),
+                of: VoxelSource::Builtin {
+                    name: "head".to_owned(),
+                    revision: 1,
+                },
                 part,
                 has_all_walls,
             })),

@@ -126,7 +126,7 @@ pub(super) fn segment_in_sentence(name: &str, lang: Lang) -> String {
 /// The object's name within a sentence: what a built-in subject is called, what the author called a file, or `None`.
 pub(super) fn subject_in_sentence(of: &SubjectRef, lang: Lang) -> Option<String> {
     let name = match of {
-        SubjectRef::Builtin { name } => match subject(name) {
+        SubjectRef::Builtin { name, .. } => match subject(name) {
             Some(line) => return Some(in_sentence(lang.of(line), lang)),
             None => name,
         },
@@ -147,7 +147,9 @@ pub(super) fn subject_in_sentence(of: &SubjectRef, lang: Lang) -> Option<String>
 /// True if left and right are a patient's: of a scan, and of built-in subjects that are part of a body.
 pub fn has_patient(of: &SubjectRef) -> bool {
     match of {
-        SubjectRef::Builtin { name } => matches!(name.as_str(), "head" | "hand" | "torso" | "knee"),
+        SubjectRef::Builtin { name, .. } => {
+            matches!(name.as_str(), "head" | "hand" | "torso" | "knee")
+        }
         SubjectRef::Clay(_) => false,
         SubjectRef::Address { .. } | SubjectRef::Supplied { .. } | SubjectRef::Meshes { .. } => {
             true

@@ -72,6 +72,8 @@ pub const DRAWN_FIGURES: [&str; 5] = [
 ];
 /// Those that are meshes, of which no clay begins as of voxels.
 pub(crate) const MESH_SUBJECTS: [&str; 1] = ["apple"];
+/// The newest revisions of the built-in subjects that were improved since their first.
+const REVISIONS: [(&str, u32); 2] = [("hand", 2), ("torso", 2)];
 /// The other subjects that the program generates, or will generate in a later release.
 pub const BUILTIN_SUBJECTS: [&str; 9] = [
     "apple",
@@ -84,3 +86,9 @@ pub const BUILTIN_SUBJECTS: [&str; 9] = [
     "torso",
     "knee",
 ];
+
+/// The newest revision of a built-in subject; 1 for those that have one alone.
+pub fn newest_revision(name: &str) -> u32 {
+    let found = REVISIONS.iter().find(|(subject, _)| *subject == name);
+    found.map_or(1, |(_, revision)| *revision)
+}

@@ -521,6 +521,7 @@ pub(crate) const CLAY_FROM: &[Key] = &[
 #[rustfmt::skip]
 pub(crate) const CLAY_OF: &[Key] = &[
     key(210, "builtin", Kind::Builtin, "a subject that the program generates, one that is made of voxels; it goes before `src` and `sha256`").leaves(LeftOut::Alone),
+    key(220, "revision", Kind::Whole, "revision of a built-in subject; without it the first one").optional(),
     key(230, "src", Kind::Address, "address of a file with a scan").optional(),
     key(240, "sha256", Kind::Hash, "hash of the file's bytes; without `src` the reader supplies the file that has it").optional(),
     key(250, "name", Kind::Text, "the author's name for the file"),

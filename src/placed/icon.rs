@@ -78,9 +78,8 @@ pub fn icon(kind: TemplateKind) -> (PlacedTemplate, Camera) {
 /// A value of the icon that the document refuses: a fault in the facts of the kind.
 pub fn icon_document(kind: TemplateKind) -> Result<Document, DocumentError> {
     let (template, camera) = icon(kind);
-    let name = "cube".to_owned();
     let mut edits = vec![
-        Edit::SetSubject(SubjectRef::Builtin { name }),
+        Edit::SetSubject(SubjectRef::newest("cube")),
         Edit::SetBackground(Background::None),
         Edit::SetCamera(camera),
         Edit::AddTemplate {

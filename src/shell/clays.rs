@@ -129,7 +129,7 @@ impl ClayDesk {
             Some(meant) => {
                 let mut builder = VolumeBuilder::with_progress(|part| go_on(READING * part));
                 let reading = match &meant.of {
-                    VoxelSource::Builtin(_) => &Reading::default(),
+                    VoxelSource::Builtin { .. } => &Reading::default(),
                     VoxelSource::File { reading, .. } => reading,
                 };
                 read_voxels((files, name), reading, &mut builder, report)?;
@@ -216,10 +216,10 @@ impl ClayDesk {
         let Some(meant) = clay.volume() else {
             return Shaping::new(clay);
         };
-        let VoxelSource::Builtin(name) = &meant.of else {
+        let VoxelSource::Builtin { name, revision } = &meant.of else {
             return Err(ClayError::NoFile);
         };
-        let volume = builtin_voxels(name, &mut |part| go_on(READING * part))?;
+        let volume = builtin_voxels((name, *revision), &mut |part| go_on(READING * part))?;
         let make = &mut |part| go_on(behind_reading(part));
         let shaping = Shaping::of_volume(clay, meant, &volume, make)?;
         self.start = Some(MadeStart::new(clay, None, shaping.clone()));
@@ -341,9 +341,12 @@ pub fn whole<P: FnMut(f32) -> bool>(
 }
 
 /// A built-in subject as finely as it is normally shown, whatever this device could hold.
-fn builtin_voxels(name: &str, go_on: &mut dyn FnMut(f32) -> bool) -> Result<Volume, ClayError> {
+fn builtin_voxels(
+    (name, revision): (&str, u32),
+    go_on: &mut dyn FnMut(f32) -> bool,
+) -> Result<Volume, ClayError> {
     let cannot = |error: SubjectError| ClayError::NoSurface(error.to_string());
-    let generator = Generator::new(name, FINE_RESOLUTION).map_err(cannot)?;
+    let generator = Generator::of_revision(name, revision, FINE_RESOLUTION).map_err(cannot)?;
     let mut builder = VolumeBuilder::new();
     let header = SubjectPart::header(generator.header());
     builder.take(header).map_err(ClayError::NoSurface)?;
@@ -706,7 +709,7 @@ mod tests {
             assert!(found.is_two_manifold(), "{}", found.lines());
             assert_eq!((found.euler, found.pieces, found.border_edges), (2, 1, 0));
             if volume {
-                let cube = builtin_voxels("cube", &mut |_| true).unwrap();
+                let cube = builtin_voxels(("cube", 1), &mut |_| true).unwrap();
                 let labels = cube.segmentation.unwrap().labels;
                 let count = labels.iter().filter(|label| **label == 4).count() as f64;
                 let wanted = count * cube.grid.spacing_mm().element_product();

@@ -38,17 +38,17 @@ pub fn resolutions(limits: VolumeLimits) -> [u32; 2] {
     [COARSE_RESOLUTION, FINE_RESOLUTION.min(limits.max_dim)]
 }
 
-/// Makes a built-in subject with each of these resolutions in turn, voxels along its longest side. `slabs` makes the
-/// slabs of a generator that lie in the given ranges, in order; it may use threads.
+/// Makes a revision of a built-in subject with each of these resolutions in turn, voxels along its longest side. `slabs`
+/// makes the slabs of a generator that lie in the given ranges, in order; it may use threads.
 pub fn make_subject(
-    name: &str,
+    (name, revision): (&str, u32),
     resolutions: &[u32],
     mut slabs: impl FnMut(&Generator, u32, &mut dyn FnMut(Slab) -> bool) -> bool,
     post: &mut dyn Post,
 ) {
     for (i, &resolution) in resolutions.iter().enumerate() {
         let is_last = i + 1 == resolutions.len();
-        let generator = match Generator::new(name, resolution) {
+        let generator = match Generator::of_revision(name, revision, resolution) {
             Ok(generator) => generator,
             Err(error) => {
                 post.post(LoadEvent::Failed {
@@ -455,7 +455,7 @@ mod tests {
         let mut kinds = Vec::new();
         let mut counts = Vec::new();
         make_subject(
-            "cube",
+            ("cube", 1),
             &resolutions(LIMITS),
             slabs_in_turn,
             &mut |event: LoadEvent| {
@@ -488,7 +488,7 @@ mod tests {
     fn a_stopped_subject_says_no_more() {
         let mut n = 0;
         make_subject(
-            "cube",
+            ("cube", 1),
             &resolutions(LIMITS),
             slabs_in_turn,
             &mut |_: LoadEvent| {

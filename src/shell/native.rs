@@ -307,7 +307,7 @@ impl NativeServices {
         ticket
     }
 
-    fn start_builtin(&mut self, name: String, want: &Want) -> Ticket {
+    fn start_builtin(&mut self, (name, revision): (String, u32), want: &Want) -> Ticket {
         let carves = want.reading.carves;
         let is_figure = want.role == Role::Subject && is_drawn_name(&name);
         let is_mesh = want.role == Role::Object || mesh_names().contains(&name.as_str());
@@ -321,7 +321,12 @@ impl NativeServices {
             }
             match is_mesh {
                 true => make_mesh(&name, carves, &mut post),
-                false => make_subject(&name, &resolutions(limits), slabs_in_threads, &mut post),
+                false => make_subject(
+                    (&name, revision),
+                    &resolutions(limits),
+                    slabs_in_threads,
+                    &mut post,
+                ),
             }
         });
         ticket
@@ -591,7 +596,9 @@ impl Services for NativeServices {
 
     fn load(&mut self, want: &Want) -> Ticket {
         match &want.source {
-            Source::Builtin(name) => return self.start_builtin(name.clone(), want),
+            Source::Builtin { name, revision } => {
+                return self.start_builtin((name.clone(), *revision), want);
+            }
             Source::Clay(clay) if !want.has_file() => {
                 return self.start_clay(Arc::clone(clay), want, None);
             }

@@ -16,10 +16,12 @@ use crate::subjects::FINE_RESOLUTION;
 /// The mesh that is measured.
 const MESH: &str = "apple";
 
+/// A subject that was made: its name, its revision and its resolution.
+type Made = (String, u32, u32);
+
 thread_local! {
-    /// What [`render_png`] draws with, kept for the next call: a subject's name, its resolution, and a device that
-    /// holds it.
-    static STUDIO: RefCell<Option<(String, u32, Studio)>> = const { RefCell::new(None) };
+    /// What [`render_png`] draws with, kept for the next call: a subject, and a device that holds it.
+    static STUDIO: RefCell<Option<(Made, Studio)>> = const { RefCell::new(None) };
     static STUDIO_GPU: RefCell<Option<Gpu>> = const { RefCell::new(None) };
 }
 
@@ -55,23 +57,32 @@ pub async fn render_png(
 ) -> Result<Vec<u8>, JsValue> {
     let document = open(&text)?;
     let illustration = document.illustration();
-    let SubjectRef::Builtin { name } = &illustration.subject else {
+    let SubjectRef::Builtin { name, revision } = &illustration.subject else {
         return Err("only built-in subjects can be drawn offscreen".into());
     };
     let gpu = gpu().await?;
     let held = STUDIO.with_borrow(Clone::clone);
-    let studio = match held.filter(|(n, r, _)| n == name && *r == resolution) {
-        Some((_, _, studio)) => studio,
+    let wanted = (name.clone(), *revision, resolution);
+    let studio = match held.filter(|(made, _)| *made == wanted) {
+        Some((_, studio)) => studio,
         None => {
-            let subject = made(Task::Subject(name.clone(), Some(resolution))).await?;
+            let subject = made(subject_task((name, *revision), resolution)).await?;
             let studio = Studio::new(&gpu, &subject, true).map_err(words)?;
-            STUDIO.set(Some((name.clone(), resolution, studio.clone())));
+            STUDIO.set(Some((wanted, studio.clone())));
             studio
         }
     };
     let image = studio.render_image(illustration, [width, height], samples);
     let image = image.await.map_err(words)?;
     encode_png(&image).map_err(words)
+}
+
+fn subject_task((name, revision): (&str, u32), resolution: u32) -> Task {
+    Task::Subject {
+        name: name.to_owned(),
+        revision,
+        resolution: Some(resolution),
+    }
 }
 
 async fn made(task: Task) -> Result<Subject, String> {
@@ -99,7 +110,7 @@ pub async fn bench(
     on_progress: js_sys::Function,
 ) -> Result<Vec<String>, JsValue> {
     let illustration = Document::new().illustration().clone();
-    let SubjectRef::Builtin { name } = &illustration.subject else {
+    let SubjectRef::Builtin { name, revision } = &illustration.subject else {
         return Err("an empty document shows a built-in subject".into());
     };
     let mut plan = BenchPlan::default();
@@ -116,12 +127,12 @@ pub async fn bench(
         0 => FINE_RESOLUTION,
         n => n,
     };
-    let subject = made(Task::Subject(name.clone(), Some(resolution))).await?;
+    let subject = made(subject_task((name, *revision), resolution)).await?;
     let mut meshes = None;
     if plan.wants_meshes() {
         let tool = ScanTask::Mesh(SceneObject::BUILTINS[0].to_owned(), false);
         meshes = Some(BenchMeshes {
-            surface: made_mesh(Task::Subject(MESH.to_owned(), None)).await?,
+            surface: made_mesh(Task::subject(MESH, 1)).await?,
             // Nobody waits in a page for its preparation, which takes longest of all.
             finer: None,
             tool: made_mesh(Task::Scan(tool)).await?,

@@ -456,9 +456,9 @@ impl Services for PageServices {
 
     fn load(&mut self, want: &Want) -> Ticket {
         match &want.source {
-            Source::Builtin(name) => {
+            Source::Builtin { name, revision } => {
                 let ticket = self.0.borrow_mut().new_ticket();
-                self.start(ticket, &builtin_task(name, want));
+                self.start(ticket, &builtin_task((name, *revision), want));
                 return ticket;
             }
             Source::Clay(clay) if !want.has_file() => {

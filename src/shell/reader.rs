@@ -925,7 +925,9 @@ impl Inner {
 
     fn way(&self, stock: u32, want: &Want) -> Way {
         match &want.source {
-            Source::Builtin(name) => return Way::Start(builtin_task(name, want)),
+            Source::Builtin { name, revision } => {
+                return Way::Start(builtin_task((name, *revision), want));
+            }
             Source::Clay(clay) if !want.has_file() => {
                 return Way::Start(Task::Clay(ClayTask::of(clay, want), None));
             }

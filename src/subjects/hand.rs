@@ -8,7 +8,7 @@ use super::hand_cords::{arteries, nerves, tendons, veins};
 use super::hand_plan::{Finger, arr, fingers};
 use super::lanes::Lanes;
 use super::limb::{Cord, inner_width, lay_bone, lay_skin, near, parted};
-use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
+use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, Thin, border_width, segment};
 use super::shape::{Field, Knot, Places, Shape, ball, capsule, curve, ellipsoid, strap};
 
 const SEGMENTS: &[SegmentSpec] = &[
@@ -38,23 +38,25 @@ pub(super) struct Hand {
     arteries: Field,
     veins: Field,
     nerves: Field,
+    thin: Thin,
 }
 
 impl Hand {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(thin: Thin) -> Self {
         let fingers = fingers();
         let (skin, nails) = skin(&fingers);
         let (bones, cartilage) = bones(&fingers);
         Self {
             muscles: muscles(),
-            tendons: tendons(&fingers),
-            arteries: arteries(&fingers),
-            veins: veins(&fingers, &skin),
+            tendons: tendons(&fingers, &skin, thin),
+            arteries: arteries(&fingers, thin),
+            veins: veins(&fingers, &skin, thin),
             nerves: nerves(&fingers),
             skin,
             nails,
             bones,
             cartilage,
+            thin,
         }
     }
 }
@@ -466,12 +468,15 @@ impl Model for Hand {
         let nails = near(&self.nails, block, 1.0);
         let muscles = near(&self.muscles, block, 5.0);
         let bones = near(&self.bones, block, 4.0);
-        let cartilage = Cord::new(&self.cartilage, block, 110.0, 9, 2.4);
+        let cartilage = Cord::new(&self.cartilage, (block, 0.0), 110.0, 9, 2.4);
+        let (min, max) = self.bounds_mm();
+        let least = self.thin.least_mm(block.spacing, (max - min).max_element());
+        let thick = (block, least);
         let cords = [
-            Cord::new(&self.tendons, block, 90.0, 5, 2.2),
-            Cord::new(&self.veins, block, 160.0, 7, 1.9),
-            Cord::new(&self.arteries, block, 230.0, 6, 1.9),
-            Cord::new(&self.nerves, block, 32.0, 8, 1.9),
+            Cord::new(&self.tendons, thick, 90.0, 5, 2.2),
+            Cord::new(&self.veins, thick, 160.0, 7, 1.9),
+            Cord::new(&self.arteries, thick, 230.0, 6, 1.9),
+            Cord::new(&self.nerves, thick, 32.0, 8, 1.9),
         ];
         let (width, soft) = (border_width(block.spacing), inner_width(block));
         let flat = Lanes::splat;

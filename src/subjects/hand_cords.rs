@@ -3,9 +3,15 @@
 use glam::Vec3;
 
 use super::hand_plan::{Finger, arr};
-use super::shape::{Field, Knot, curve, strap};
+use super::paint::Thin;
+use super::shape::{Field, Knot, along_curve, chain, curve, strap};
 
-pub(super) fn tendons(fingers: &[Finger]) -> Field {
+/// How far under the skin a vein lies, mm; and a tendon at least, on a finger and before, where veins cross it.
+const VEIN_UNDER_MM: f32 = 2.15;
+const FINGER_TENDON_UNDER_MM: f32 = 2.6;
+const TENDON_UNDER_MM: f32 = 4.2;
+
+pub(super) fn tendons(fingers: &[Finger], skin: &Field, thin: Thin) -> Field {
     let mut f = Field::default();
     for (index, finger) in fingers.iter().enumerate() {
         let j = &finger.joints;
@@ -50,7 +56,29 @@ pub(super) fn tendons(fingers: &[Finger]) -> Field {
         if index == 4 {
             over[2] = (arr((j[0] + j[1]) * 0.5 - finger.palmar[0] * 6.0), 1.6);
         }
-        f.join_all(0.0, curve(&over));
+        f.join_all(
+            0.0,
+            match thin {
+                Thin::AsModelled => curve(&over),
+                // Over the knuckles they would come out of the skin.
+                Thin::Whole => {
+                    let laid = along_curve(&over);
+                    let knuckle = laid.len() / 2;
+                    let under = |(i, (p, r)): (usize, Knot)| {
+                        let deepest = match i < knuckle {
+                            true => -(r + TENDON_UNDER_MM),
+                            false => -(r + FINGER_TENDON_UNDER_MM),
+                        };
+                        match skin.at(p) > deepest {
+                            true => (skin.pull(p, deepest), r),
+                            false => (p, r),
+                        }
+                    };
+                    let laid: Vec<Knot> = laid.into_iter().enumerate().map(under).collect();
+                    chain(&laid)
+                }
+            },
+        );
     }
     // Long palmar tendon, and the band over the tunnel.
     f.join_all(
@@ -72,32 +100,39 @@ pub(super) fn tendons(fingers: &[Finger]) -> Field {
     f
 }
 
-pub(super) fn arteries(fingers: &[Finger]) -> Field {
+pub(super) fn arteries(fingers: &[Finger], thin: Thin) -> Field {
     let mut f = Field::default();
-    f.join_all(
-        0.0,
-        curve(&[
-            ([-19.0, 9.0, -108.0], 1.9),
-            ([-20.0, 10.0, -20.0], 1.8),
-            ([-25.0, 2.0, 8.0], 1.6),
-            ([-24.0, -6.0, 28.0], 1.5),
-            ([-12.0, 3.0, 46.0], 1.5),
-            ([6.0, 4.0, 46.0], 1.4),
-            ([18.0, 5.0, 40.0], 1.2),
-        ]),
-    );
-    let arch: [Knot; 8] = [
+    // Under the thumb's tendon, or through it.
+    let under_tendon = match thin {
+        Thin::AsModelled => [-24.0, -6.0, 28.0],
+        Thin::Whole => [-23.0, -2.0, 28.0],
+    };
+    let deep: [Knot; 7] = [
+        ([-19.0, 9.0, -108.0], 1.9),
+        ([-20.0, 10.0, -20.0], 1.8),
+        ([-25.0, 2.0, 8.0], 1.6),
+        (under_tendon, 1.5),
+        ([-12.0, 3.0, 46.0], 1.5),
+        ([6.0, 4.0, 46.0], 1.4),
+        ([18.0, 5.0, 40.0], 1.2),
+    ];
+    f.join_all(0.0, curve(&deep));
+    let mut arch: Vec<Knot> = vec![
         ([18.0, 9.0, -108.0], 1.9),
         ([17.0, 11.0, -20.0], 1.8),
         ([17.0, 11.0, 12.0], 1.7),
         ([19.0, 11.0, 34.0], 1.7),
         ([12.0, 11.5, 54.0], 1.6),
         ([-3.0, 11.5, 60.0], 1.6),
-        ([-17.0, 11.5, 52.0], 1.4),
-        ([-24.0, 12.0, 40.0], 1.2),
     ];
+    arch.extend(match thin {
+        Thin::AsModelled => vec![([-17.0, 11.5, 52.0], 1.4), ([-24.0, 12.0, 40.0], 1.2)],
+        // Up to the nerves of index finger and thumb.
+        Thin::Whole => vec![([-9.0, 12.4, 58.0], 1.4)],
+    });
     f.join_all(0.0, curve(&arch));
-    for finger in fingers {
+    let on_deep_arch = along_curve(&deep);
+    for (index, finger) in fingers.iter().enumerate() {
         let j = &finger.joints;
         for side in [-1.0, 1.0] {
             let beside = |joint: usize, r: f32| {
@@ -110,29 +145,51 @@ pub(super) fn arteries(fingers: &[Finger]) -> Field {
             };
             let root =
                 j[1] * 0.55 + Vec3::new(0.0, 11.0, 26.0) * 0.5 + finger.across * (side * 2.0);
-            f.join_all(
-                0.0,
-                curve(&[
-                    (arr(root), 1.2),
-                    beside(1, 1.15),
-                    beside(2, 1.0),
-                    beside(3, 0.9),
-                    beside(4, 0.6),
-                ]),
-            );
+            let mut knots = vec![
+                (arr(root), 1.2),
+                beside(1, 1.15),
+                beside(2, 1.0),
+                beside(3, 0.9),
+                beside(4, 0.6),
+            ];
+            if thin == Thin::Whole {
+                let off = |knot: &Knot| (Vec3::from_array(knot.0) - root).length_squared();
+                // From the deep arch, which lies behind the nerves.
+                let nearest = on_deep_arch.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+                // That of the thumb goes straight: its nerves would cross the way over the palm.
+                let replaced = usize::from(index == 4);
+                knots.splice(0..replaced, nearest.map(|(p, _)| (*p, 1.2)));
+            }
+            f.join_all(0.0, curve(&knots));
         }
     }
     f
 }
 
-pub(super) fn veins(fingers: &[Finger], skin: &Field) -> Field {
+/// Places on the net of veins on the back of the hand.
+const NET: [[f32; 3]; 5] = [
+    [-34.0, -9.0, 62.0],
+    [-14.0, -14.0, 48.0],
+    [2.0, -15.0, 40.0],
+    [18.0, -14.0, 44.0],
+    [30.0, -11.0, 56.0],
+];
+
+pub(super) fn veins(fingers: &[Finger], skin: &Field, thin: Thin) -> Field {
     let mut f = Field::default();
     let mut tube = |knots: &[Knot]| {
-        let knots: Vec<Knot> = knots
-            .iter()
-            .map(|&(p, r)| (skin.pull(p, -(r + 1.9)), r))
-            .collect();
-        f.join_all(0.0, curve(&knots));
+        let under = |mm: f32| move |&(p, r): &Knot| (skin.pull(p, -(r + mm)), r);
+        f.join_all(
+            0.0,
+            match thin {
+                Thin::AsModelled => curve(&knots.iter().map(under(1.9)).collect::<Vec<_>>()),
+                // Under the skin between the knots too.
+                Thin::Whole => {
+                    let laid = along_curve(knots);
+                    chain(&laid.iter().map(under(VEIN_UNDER_MM)).collect::<Vec<_>>())
+                }
+            },
+        );
     };
     // Along the back of the fingers into a net on the back of the hand, and up the forearm.
     for pair in fingers[..4].windows(2) {
@@ -144,13 +201,8 @@ pub(super) fn veins(fingers: &[Finger], skin: &Field) -> Field {
             ([x * 0.6, -14.0, z - 46.0], 1.6),
         ]);
     }
-    tube(&[
-        ([-34.0, -9.0, 62.0], 1.2),
-        ([-14.0, -14.0, 48.0], 1.5),
-        ([2.0, -15.0, 40.0], 1.6),
-        ([18.0, -14.0, 44.0], 1.5),
-        ([30.0, -11.0, 56.0], 1.2),
-    ]);
+    let radii = [1.2, 1.5, 1.6, 1.5, 1.2];
+    tube(&[0, 1, 2, 3, 4].map(|i| (NET[i], radii[i])));
     tube(&[
         ([-14.0, -14.0, 48.0], 1.6),
         ([-22.0, -12.0, 18.0], 1.8),
@@ -167,12 +219,24 @@ pub(super) fn veins(fingers: &[Finger], skin: &Field) -> Field {
     for finger in fingers {
         let j = &finger.joints;
         let beside = |joint: usize, r: f32| {
+            // From afar the way to the skin may end on the next finger.
+            let away = match thin {
+                Thin::AsModelled => 20.0,
+                Thin::Whole => finger.flesh[joint],
+            };
             (
-                arr(j[joint] - finger.palmar[joint.min(3)] * 20.0 + finger.across * 3.0),
+                arr(j[joint] - finger.palmar[joint.min(3)] * away + finger.across * 3.0),
                 r,
             )
         };
-        tube(&[beside(3, 0.9), beside(2, 1.1), beside(1, 1.2)]);
+        let mut knots = vec![beside(3, 0.9), beside(2, 1.1), beside(1, 1.2)];
+        if thin == Thin::Whole {
+            // On to the net on the back of the hand.
+            let off = |p: &[f32; 3]| (Vec3::from_array(*p) - j[1]).length_squared();
+            let nearest = NET.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+            knots.extend(nearest.map(|p| (*p, 1.2)));
+        }
+        tube(&knots);
     }
     f
 }

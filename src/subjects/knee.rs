@@ -543,14 +543,14 @@ impl Model for Knee {
         ];
         let gliding = near(&self.gliding, block, 1.0);
         let menisci = near(&self.menisci, block, 1.0);
-        let bag = Cord::new(&self.capsule, block, 12.0, 12, 5.0);
+        let bag = Cord::new(&self.capsule, (block, 0.0), 12.0, 12, 5.0);
         let cords = [
-            Cord::new(&self.veins, block, 160.0, 14, 3.0),
-            Cord::new(&self.arteries, block, 230.0, 13, 3.0),
-            Cord::new(&self.nerves, block, 32.0, 15, 3.0),
+            Cord::new(&self.veins, (block, 0.0), 160.0, 14, 3.0),
+            Cord::new(&self.arteries, (block, 0.0), 230.0, 13, 3.0),
+            Cord::new(&self.nerves, (block, 0.0), 32.0, 15, 3.0),
             // The small arteries about the joint pass under its ligaments.
-            Cord::new(&self.ligaments, block, 95.0, 10, 4.0),
-            Cord::new(&self.tendons, block, 90.0, 11, 3.0),
+            Cord::new(&self.ligaments, (block, 0.0), 95.0, 10, 4.0),
+            Cord::new(&self.tendons, (block, 0.0), 90.0, 11, 3.0),
         ];
         let (width, soft) = (border_width(block.spacing), inner_width(block));
         let flat = Lanes::splat;

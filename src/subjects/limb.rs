@@ -83,10 +83,19 @@ pub(super) struct Cord<'a> {
 }
 
 impl<'a> Cord<'a> {
-    /// The part of a cord that matters in a block.
-    pub(super) fn new(field: &'a Field, block: &Block, value: f32, label: u8, depth: f32) -> Self {
+    /// The part of a cord that matters in a block. Its tubes are at least `least` mm thick, which is 0 or more.
+    pub(super) fn new(
+        field: &'a Field,
+        (block, least): (&Block, f32),
+        value: f32,
+        label: u8,
+        depth: f32,
+    ) -> Self {
+        let band = 1.0 + border_width(block.spacing);
+        let mut near = Near::default();
+        field.near_thick(block, band, least, &mut near);
         Self {
-            field: near(field, block, 1.0),
+            field: near,
             value,
             label,
             depth,

@@ -51,6 +51,7 @@ mod torso;
 mod torso_belly;
 mod torso_chest;
 mod torso_frame;
+mod torso_lungs;
 mod torso_wall;
 
 use std::ops::Range;
@@ -59,14 +60,13 @@ use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
 
 use crate::data::{Grid, Mesh, Segment, Segmentation, SubjectPart, SubjectSink, Volume, Voxels};
 use lanes::LANES;
-use paint::{Block, Canvas, Model, ROWS};
+use paint::{Block, Canvas, Model, ROWS, Thin};
 
+pub use paint::FINE_RESOLUTION;
 pub use tools::tool;
 
 /// Voxels along the longest side of a subject for the picture that is shown first.
 pub const COARSE_RESOLUTION: u32 = 64;
-/// Voxels along the longest side of a subject as it is normally shown.
-pub const FINE_RESOLUTION: u32 = 256;
 /// Fewest voxels along the longest side that are made.
 pub const MIN_RESOLUTION: u32 = 16;
 /// Most voxels along the longest side that are made.
@@ -121,15 +121,28 @@ pub fn names() -> &'static [&'static str] {
     ]
 }
 
-fn model(name: &str) -> Option<Box<dyn Model>> {
+/// The newest revision of a subject, from 1. An older one stays as it was, for the documents that show it.
+pub fn newest_revision(name: &str) -> u32 {
+    match name {
+        "hand" | "torso" => 2,
+        _ => 1,
+    }
+}
+
+/// The model of a revision; the newest stands in for one that is not there yet.
+fn model(name: &str, revision: u32) -> Option<Box<dyn Model>> {
+    let thin = match revision {
+        0 | 1 => Thin::AsModelled,
+        _ => Thin::Whole,
+    };
     Some(match name {
         "bar" => Box::new(bar::Bar),
         "cube" => Box::new(cube::Cube),
         "tomato" => Box::new(tomato::Tomato::new()),
         "piggybank" => Box::new(piggybank::Piggybank::new()),
-        "hand" => Box::new(hand::Hand::new()),
+        "hand" => Box::new(hand::Hand::new(thin)),
         "knee" => Box::new(knee::Knee::new()),
-        "torso" => Box::new(torso::Torso::new()),
+        "torso" => Box::new(torso::Torso::new(thin)),
         "head" => Box::new(head::Head::new()),
         _ => return None,
     })
@@ -166,10 +179,22 @@ impl Generator {
     /// Slices that are made together; a slab that starts and ends at a multiple of it costs least.
     pub const SLAB: u32 = LANES as u32;
 
-    /// Prepares a subject, `resolution` voxels along its longest side.
+    /// Prepares the first revision of a subject, `resolution` voxels along its longest side.
+    ///
+    /// # Errors
+    /// As [`Generator::of_revision`].
     pub fn new(name: &str, resolution: u32) -> Result<Self, SubjectError> {
+        Self::of_revision(name, 1, resolution)
+    }
+
+    /// Prepares a revision of a subject, `resolution` voxels along its longest side. The newest stands in for one that
+    /// is not there yet.
+    ///
+    /// # Errors
+    /// [`SubjectError::UnknownName`], [`SubjectError::Resolution`].
+    pub fn of_revision(name: &str, revision: u32, resolution: u32) -> Result<Self, SubjectError> {
         check_resolution(resolution)?;
-        let model = model(name).ok_or_else(|| {
+        let model = model(name, revision).ok_or_else(|| {
             // A hostile name is not repeated at length.
             SubjectError::UnknownName(name.chars().take(40).collect())
         })?;
@@ -274,7 +299,8 @@ impl Generator {
     }
 }
 
-/// Makes a subject, `resolution` voxels along its longest side, and hands it to `sink` slab by slab.
+/// Makes the first revision of a subject, `resolution` voxels along its longest side, and hands it to `sink` slab by
+/// slab.
 pub fn generate(
     name: &str,
     resolution: u32,

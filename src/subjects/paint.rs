@@ -4,6 +4,8 @@ use glam::Vec3;
 
 use super::lanes::{LANES, Lanes, Points};
 
+/// Voxels along the longest side of a subject as it is normally shown.
+pub const FINE_RESOLUTION: u32 = 256;
 /// Rows in a block.
 pub(super) const ROWS: usize = LANES * LANES;
 
@@ -119,4 +121,24 @@ impl Canvas {
 /// smooth.
 pub(super) fn border_width(spacing: f32) -> f32 {
     2.6 * spacing
+}
+
+/// How cords and vessels are painted that are thinner than a voxel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Thin {
+    /// As thin as the model has them: of a chain of voxels some may be lost.
+    AsModelled,
+    /// As thick as it takes for the voxels of each tube to hang together on the grid that is normally shown.
+    Whole,
+}
+
+impl Thin {
+    /// Least radius of a tube, mm, on a grid of this spacing, of a model whose longest side has `longest_mm`.
+    pub(super) fn least_mm(self, spacing: f32, longest_mm: f32) -> f32 {
+        match self {
+            Self::AsModelled => 0.0,
+            // The centre of a voxel is never farther from a point in it: so the voxels along an axis share faces.
+            Self::Whole => 0.87 * spacing.min(longest_mm / FINE_RESOLUTION as f32),
+        }
+    }
 }

@@ -242,9 +242,10 @@ impl Shape {
         (from - along * t).length() - hull - radius
     }
 
-    /// Signed distance, mm, close to exact near the surface and never less than the distance to the hull.
+    /// Signed distance, mm, close to exact near the surface and never less than the distance to the hull. Capsules are
+    /// at least `least` mm thick, which is 0 or more.
     #[inline(always)]
-    fn distance(&self, p: &Places) -> Lanes {
+    fn distance(&self, p: &Places, least: f32) -> Lanes {
         let p = if self.mirrored { &p.folded } else { &p.plain };
         match &self.form {
             Form::Ellipsoid {
@@ -270,7 +271,11 @@ impl Shape {
                 dr,
             } => {
                 let (ex, ey, ez, t) = off_axis(p, *start, *along, *inv_length2);
-                (ex * ex + ey * ey + ez * ez).sqrt() - t * *dr - *r0
+                let off = (ex * ex + ey * ey + ez * ez).sqrt();
+                if least > 0.0 {
+                    return off - (t * *dr + *r0).max(Lanes::splat(least));
+                }
+                off - t * *dr - *r0
             }
             Form::Strap {
                 start,
@@ -432,6 +437,11 @@ pub(super) type Knot = ([f32; 3], f32);
 
 /// Capsules along a smooth curve through the knots (Catmull and Rom's), on one side.
 pub(super) fn curve(knots: &[Knot]) -> Vec<Shape> {
+    chain(&along_curve(knots))
+}
+
+/// Points along a smooth curve through the knots (Catmull and Rom's), four to each piece.
+pub(super) fn along_curve(knots: &[Knot]) -> Vec<Knot> {
     const PIECES: usize = 4;
     let knot = |i: isize| {
         let i = i.clamp(0, knots.len() as isize - 1) as usize;
@@ -453,16 +463,17 @@ pub(super) fn curve(knots: &[Knot]) -> Vec<Shape> {
         }
     }
     points.push(knot(knots.len() as isize - 1));
-    points
+    let knots = points.into_iter();
+    knots
+        .map(|point| (point.truncate().to_array(), point.w))
+        .collect()
+}
+
+/// Capsules from each knot to the next.
+pub(super) fn chain(knots: &[Knot]) -> Vec<Shape> {
+    knots
         .windows(2)
-        .map(|pair| {
-            capsule(
-                pair[0].truncate().to_array(),
-                pair[1].truncate().to_array(),
-                pair[0].w.max(0.1),
-                pair[1].w.max(0.1),
-            )
-        })
+        .map(|pair| capsule(pair[0].0, pair[1].0, pair[0].1.max(0.1), pair[1].1.max(0.1)))
         .collect()
 }
 
@@ -544,12 +555,31 @@ impl Field {
         pos.to_array()
     }
 
+    /// The distance at a point, mm.
+    pub(super) fn at(&self, point: [f32; 3]) -> f32 {
+        let [x, y, z] = point.map(Lanes::splat);
+        self.everywhere().distance(&Places::new(Points { x, y, z }))[0]
+    }
+
     /// All steps, for points anywhere.
     pub(super) fn everywhere(&self) -> Near<'_> {
         Near {
+            least: 0.0,
             steps: self.steps.iter().map(|(op, s)| (*op, s.len())).collect(),
             shapes: self.steps.iter().flat_map(|(_, s)| s).collect(),
         }
+    }
+
+    /// As [`Field::near`], with capsules that are at least `least` mm thick.
+    pub(super) fn near_thick<'a>(
+        &'a self,
+        block: &Block,
+        band: f32,
+        least: f32,
+        near: &mut Near<'a>,
+    ) {
+        self.near(block, band + least, near);
+        near.least = least;
     }
 
     /// The steps that can matter in a block for distances up to `band` mm; empty if nothing is there.
@@ -570,6 +600,7 @@ impl Field {
     fn gather<'a>(&'a self, block: &Block, band: f32, near: &mut Near<'a>) -> bool {
         near.steps.clear();
         near.shapes.clear();
+        near.least = 0.0;
         let (center, radius) = (block.center(), block.radius());
         let mut any = false;
         for ((op, shapes), later) in self.steps.iter().zip(&self.rounding) {
@@ -598,6 +629,8 @@ pub(super) struct Near<'a> {
     /// An operation, and the number of the next shapes that it takes.
     steps: Vec<(Op, usize)>,
     shapes: Vec<&'a Shape>,
+    /// Capsules are at least so thick, mm.
+    least: f32,
 }
 
 impl Near<'_> {
@@ -615,9 +648,9 @@ impl Near<'_> {
         for (_, count) in &self.steps {
             let (shapes, later) = rest.split_at(*count);
             rest = later;
-            let mut d = shapes[0].distance(p);
+            let mut d = shapes[0].distance(p, self.least);
             for shape in &shapes[1..] {
-                d = d.min(shape.distance(p));
+                d = d.min(shape.distance(p, self.least));
             }
             second = second.min(first.max(d));
             first = first.min(d);
@@ -646,9 +679,9 @@ impl Near<'_> {
                 d = d - weight * mm;
                 continue;
             }
-            let mut e = shapes[0].distance(p);
+            let mut e = shapes[0].distance(p, self.least);
             for shape in &shapes[1..] {
-                e = e.min(shape.distance(p));
+                e = e.min(shape.distance(p, self.least));
             }
             d = match *op {
                 Op::Join(k) => smooth_min(d, e, k),

@@ -5,13 +5,14 @@
 
 use glam::Vec3;
 
-use super::lanes::Lanes;
-use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
+use super::lanes::{LANES, Lanes, Points};
+use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, Thin, border_width, segment};
 use super::profile::Profile;
 use super::shape::{Field, Near, Places};
 use super::torso_belly::{self, Kidneys};
 use super::torso_chest::{self, Heart};
 use super::torso_frame::{self, Spine};
+use super::torso_lungs::{self, Tree};
 use super::torso_wall::{self, ARM_END_MM, BOTTOM_MM, Outside, TOP_MM};
 
 /// Segments of the torso; the number of each is its label.
@@ -129,6 +130,7 @@ pub(super) struct Torso {
     kidneys: Kidneys,
     belly_arteries: Field,
     belly_veins: Field,
+    thin: Thin,
 }
 
 /// What lies between the lungs.
@@ -167,29 +169,32 @@ fn mediastinum() -> Field {
 }
 
 impl Torso {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(thin: Thin) -> Self {
         let cavity = torso_frame::cavity();
         let (ribs, cartilages) = torso_frame::ribs(&cavity);
         let [lung_bronchi, lung_arteries, lung_veins] = torso_chest::lung_trees();
-        let (chest_arteries, chest_veins) = torso_chest::vessels();
-        let (belly_arteries, belly_veins) = torso_belly::vessels();
+        let (chest_arteries, chest_veins) = torso_chest::vessels(thin);
+        let (belly_arteries, belly_veins) = torso_belly::vessels(thin);
         let colon = torso_belly::colon();
         let outside = Outside::new();
         let bowel = torso_belly::small_bowel(&cavity);
-        Self {
+        let mut torso = Self {
             relief: outside.muscle_relief(),
             sheets: outside.sheets(),
             deep_muscles: torso_wall::deep_muscles(),
-            spine: torso_frame::spine(),
+            spine: torso_frame::spine(thin),
             sternum: torso_frame::sternum(&cavity),
             clavicles: torso_frame::clavicles(),
             scapulae: torso_frame::scapulae(),
             humeri: torso_frame::humeri(),
             pelvis: torso_frame::pelvis(),
             mediastinum: mediastinum(),
-            heart: torso_chest::heart(),
+            heart: torso_chest::heart(thin),
             windpipe: torso_chest::windpipe(0.0),
-            windpipe_air: torso_chest::windpipe(2.4),
+            windpipe_air: torso_chest::windpipe(match thin {
+                Thin::AsModelled => 2.4,
+                Thin::Whole => 3.0,
+            }),
             gullet: torso_chest::gullet(),
             glands: torso_chest::glands(),
             dome: torso_belly::dome(),
@@ -204,7 +209,7 @@ impl Torso {
             ],
             pancreas: torso_belly::pancreas(),
             spleen: torso_belly::spleen(),
-            kidneys: torso_belly::kidneys(),
+            kidneys: torso_belly::kidneys(thin),
             trunk: outside.trunk,
             skin: outside.skin,
             cavity,
@@ -218,8 +223,78 @@ impl Torso {
             colon,
             belly_arteries,
             belly_veins,
+            thin,
+        };
+        if thin == Thin::Whole {
+            torso.grow_lung_trees();
         }
+        torso
     }
+
+    /// Lets the trees of the lungs grow where they have room.
+    fn grow_lung_trees(&mut self) {
+        let [mediastinum, heart, dome, windpipe, arteries, veins, gullet] = [
+            &self.mediastinum,
+            &self.heart.body,
+            &self.dome,
+            &self.windpipe,
+            &self.chest_arteries,
+            &self.chest_veins,
+            &self.gullet,
+        ]
+        .map(Field::everywhere);
+        let lung = |p: &Places| {
+            let beat = heart.distance(p);
+            let c = self.cavity_distance(p);
+            let under = dome.distance(p).max(Lanes::splat(3.5) - beat);
+            lung_of(p, [c, under, beat, mediastinum.distance(p)])
+        };
+        let taken = |p: &Places, tree: Tree| {
+            let others = match tree {
+                Tree::Bronchi => arteries.distance(p).min(veins.distance(p)),
+                // The lung artery carries spent blood, the lung veins fresh.
+                Tree::Arteries => arteries.distance(p).min(windpipe.distance(p)),
+                Tree::Veins => veins.distance(p).min(windpipe.distance(p)),
+            };
+            others.min(heart.distance(p)).min(gullet.distance(p))
+        };
+        let branches = torso_lungs::grow(&lung, &taken);
+        let field = |shapes| {
+            let mut field = Field::default();
+            field.join_all(0.0, shapes);
+            field
+        };
+        let [bronchi, arteries, veins] = [Tree::Bronchi, Tree::Arteries, Tree::Veins]
+            .map(|tree| field(torso_lungs::tubes(&branches, tree)));
+        (self.lung_bronchi, self.lung_arteries, self.lung_veins) = (bronchi, arteries, veins);
+    }
+
+    /// Distance from the outside of the cavity of chest and belly, whose top is closed.
+    fn cavity_distance(&self, p: &Places) -> Lanes {
+        // A profile takes the height of the first point for all eight.
+        let mut c = Lanes::splat(0.0);
+        for i in 0..LANES {
+            let one = |of: &Lanes| Lanes::splat(of[i]);
+            let point = Points {
+                x: one(&p.plain.x),
+                y: one(&p.plain.y),
+                z: one(&p.plain.z),
+            };
+            c[i] = self.cavity.distance(&point)[0].max(p.plain.z[i] - 184.0);
+        }
+        c
+    }
+}
+
+/// Distance from the outside of the lungs, from those from the cavity, from what lies under the diaphragm, from the
+/// heart and from what lies between the lungs.
+#[inline(always)]
+fn lung_of(p: &Places, [c, under, beat, mediastinum]: [Lanes; 4]) -> Lanes {
+    (c + 1.2)
+        .max(Lanes::splat(4.2) - under)
+        .max(-mediastinum)
+        .max(Lanes::splat(2.5) - beat)
+        .max(Lanes::splat(-80.0) - p.plain.z)
 }
 
 /// The fields of one block, cut down to what matters there.
@@ -278,6 +353,14 @@ impl Model for Torso {
             Field::near(field, block, band + width, &mut near);
             Layer(near)
         };
+        let (min, max) = self.bounds_mm();
+        let least = self.thin.least_mm(block.spacing, (max - min).max_element());
+        // What is thinner than a voxel in places.
+        let cord = |field, band: f32| {
+            let mut near = Near::default();
+            Field::near_thick(field, block, band + width, least, &mut near);
+            Layer(near)
+        };
         let relief = self.relief.near_onto(block, 0.0);
         let sheets = near(&self.sheets, 0.0);
         let deep_muscles = near(&self.deep_muscles, 5.0);
@@ -291,29 +374,19 @@ impl Model for Torso {
             (near(&self.spine.bones, 3.0), Tissue::Spine, 1.3),
         ];
         let cartilages = near(&self.cartilages, 1.0);
-        let [discs, canal, cord, roots] = [
-            &self.spine.discs,
-            &self.spine.canal,
-            &self.spine.cord,
-            &self.spine.roots,
-        ]
-        .map(|field| near(field, 1.0));
+        let [discs, canal, spinal_cord] =
+            [&self.spine.discs, &self.spine.canal, &self.spine.cord].map(|field| near(field, 1.0));
+        let roots = cord(&self.spine.roots, 1.0);
         let mediastinum = near(&self.mediastinum, 6.0);
         let heart = near(&self.heart.body, 6.0);
-        let [
-            heart_left,
-            heart_right,
-            grooves,
-            heart_arteries,
-            heart_veins,
-        ] = [
+        let [heart_left, heart_right, grooves] = [
             &self.heart.left_rooms,
             &self.heart.right_rooms,
             &self.heart.grooves,
-            &self.heart.arteries,
-            &self.heart.veins,
         ]
         .map(|field| near(field, 1.0));
+        let [heart_arteries, heart_veins] =
+            [&self.heart.arteries, &self.heart.veins].map(|field| cord(field, 1.0));
         let [windpipe, windpipe_air, gullet, glands] = [
             &self.windpipe,
             &self.windpipe_air,
@@ -323,7 +396,12 @@ impl Model for Torso {
         .map(|field| near(field, 2.0));
         let [lung_bronchi, lung_arteries, lung_veins] =
             [&self.lung_bronchi, &self.lung_arteries, &self.lung_veins]
-                .map(|field| near(field, 1.0));
+                .map(|field| cord(field, 1.0));
+        let lung_trees = [
+            (lung_bronchi, -250.0, Tissue::Bronchi),
+            (lung_veins, 60.0, Tissue::Arteries),
+            (lung_arteries, 60.0, Tissue::Veins),
+        ];
         let dome = near(&self.dome, 30.0);
         let [liver, band, gallbladder, pancreas, spleen] = [
             &self.liver,
@@ -351,19 +429,19 @@ impl Model for Torso {
             ),
         ];
         let colon = near(&self.colon, 4.0);
-        let [kidneys, pyramids, sinus, ureters, adrenals] = [
+        let [kidneys, pyramids, sinus, adrenals] = [
             &self.kidneys.body,
             &self.kidneys.pyramids,
             &self.kidneys.sinus,
-            &self.kidneys.ureters,
             &self.kidneys.adrenals,
         ]
         .map(|field| near(field, 3.0));
+        let ureters = cord(&self.kidneys.ureters, 3.0);
         let vessels = [
-            (near(&self.belly_veins, 1.0), 160.0, Tissue::Veins),
-            (near(&self.chest_veins, 1.0), 160.0, Tissue::Veins),
-            (near(&self.belly_arteries, 1.0), 230.0, Tissue::Arteries),
-            (near(&self.chest_arteries, 1.0), 230.0, Tissue::Arteries),
+            (cord(&self.belly_veins, 1.0), 160.0, Tissue::Veins),
+            (cord(&self.chest_veins, 1.0), 160.0, Tissue::Veins),
+            (cord(&self.belly_arteries, 1.0), 230.0, Tissue::Arteries),
+            (cord(&self.chest_arteries, 1.0), 230.0, Tissue::Arteries),
         ];
         let thickness = 2.3f32.max(0.9 * block.spacing);
 
@@ -419,11 +497,7 @@ impl Model for Torso {
 
                 // Lungs.
                 if z > -90.0 {
-                    let lung = (c + 1.2)
-                        .max(flat(4.2) - under)
-                        .max(-mediastinum.or_far(&p))
-                        .max(flat(2.5) - beat)
-                        .max(flat(-80.0) - p.plain.z);
+                    let lung = lung_of(&p, [c, under, beat, mediastinum.or_far(&p)]);
                     if lung.lowest() < width {
                         lay(lung, -600.0, Tissue::Lungs);
                         // Fissures: one oblique in each, one level in the right.
@@ -435,14 +509,13 @@ impl Model for Torso {
                         let fissure = oblique.abs().min(level) - 0.5 * block.spacing.max(1.8);
                         let shallow = flat(-5.0) - lung;
                         out.tone(row, fissure.max(shallow).max(lung - 2.0), soft, -1000.0);
-                        for (tree, value, tissue) in [
-                            (&lung_bronchi, -250.0, Tissue::Bronchi),
-                            (&lung_veins, 60.0, Tissue::Arteries),
-                            (&lung_arteries, 60.0, Tissue::Veins),
-                        ] {
+                        for (tree, value, tissue) in &lung_trees {
+                            if self.thin == Thin::Whole {
+                                break;
+                            }
                             if let Some(d) = tree.at(&p) {
                                 let d = d.max(lung + 3.0);
-                                out.lay(row, d, soft, flat(value), tissue as u8);
+                                out.lay(row, d, soft, flat(*value), *tissue as u8);
                                 if matches!(tissue, Tissue::Bronchi) {
                                     out.lay(row, d + 1.5, soft, flat(-1000.0), Tissue::Air as u8);
                                 }
@@ -476,7 +549,8 @@ impl Model for Torso {
                         out.lay(row, d, soft, flat(value), tissue as u8);
                     }
                 };
-                if let Some(d) = ureters.at(&p) {
+                let ureters = ureters.at(&p);
+                if let Some(d) = ureters {
                     lay(d.max(c), 60.0, Tissue::Ureters);
                 }
                 if let Some(d) = adrenals.at(&p) {
@@ -544,11 +618,29 @@ impl Model for Torso {
                     lay(heart_right.or_far(&p), 150.0, Tissue::Veins);
                     lay(heart_left.or_far(&p), 220.0, Tissue::Arteries);
                 }
+                // Whole trees go on outside of the lungs, to their roots. The bronchi lie before the vessels there.
+                let [bronchi, veins, arteries] = &lung_trees;
+                let mut tree = |(tree, value, tissue): &(Layer<'_>, f32, Tissue)| {
+                    if let Some(d) = tree.at(&p).filter(|_| self.thin == Thin::Whole) {
+                        lay(d, *value, *tissue);
+                    }
+                };
+                tree(veins);
+                tree(arteries);
+                if let Some(d) = ureters.filter(|_| self.thin == Thin::Whole) {
+                    lay(d.max(c), 60.0, Tissue::Ureters);
+                }
                 for (vessel, value, tissue) in &vessels {
                     if let Some(d) = vessel.at(&p) {
                         lay(d.max(m + 3.0), *value, *tissue);
                     }
                 }
+                let mut tree = |(tree, value, tissue): &(Layer<'_>, f32, Tissue)| {
+                    if let Some(d) = tree.at(&p).filter(|_| self.thin == Thin::Whole) {
+                        lay(d, *value, *tissue);
+                    }
+                };
+                tree(bronchi);
                 if let Some(d) = heart_veins.at(&p) {
                     lay(d, 150.0, Tissue::Veins);
                 }
@@ -557,19 +649,27 @@ impl Model for Torso {
                 }
                 if let Some(d) = windpipe.at(&p) {
                     // Hoops of cartilage, open behind.
-                    let hoop = (z * (1.0 / 7.5)).rem_euclid(1.0) < 0.6;
+                    let is_whole = self.thin == Thin::Whole;
+                    let share = if is_whole { 0.5 } else { 0.6 };
+                    let hoop = (z * (1.0 / 7.5)).rem_euclid(1.0) < share && !(is_whole && z < 86.0);
                     let ring = if hoop {
                         Tissue::Cartilage
                     } else {
                         Tissue::Bronchi
                     };
                     lay(d, 70.0, ring);
+                    if hoop && is_whole {
+                        // Open: what lies between them hangs together there.
+                        let behind = p.plain.y - torso_chest::windpipe_behind(&p.plain);
+                        lay(d.max(behind), 70.0, Tissue::Bronchi);
+                    }
                     if let Some(d) = windpipe_air.at(&p) {
                         lay(d, -1000.0, Tissue::Air);
                     }
                 }
 
                 // Frame.
+                let (chest_arteries, ..) = &vessels[3];
                 if let Some(d) = cartilages.at(&p) {
                     lay(d.max(s + 4.0), 110.0, Tissue::Cartilage);
                 }
@@ -580,7 +680,11 @@ impl Model for Torso {
                     if let Some(d) = bone.at(&p) {
                         // Ribs and shoulder blades lie under muscle, the others come up to the skin.
                         let covered = matches!(tissue, Tissue::Ribs | Tissue::Scapulae);
-                        let d = d.max(if covered { m + 2.6 } else { s + 4.0 });
+                        let mut d = d.max(if covered { m + 2.6 } else { s + 4.0 });
+                        if self.thin == Thin::Whole && matches!(tissue, Tissue::Ribs) {
+                            // The first rib has a groove for the artery of the arm.
+                            d = d.max(-chest_arteries.or_far(&p));
+                        }
                         if d.lowest() < width {
                             let spongy = ((-d - *compact) * 0.8).clamp(0.0, 1.0);
                             let value = flat(1100.0).mix(flat(320.0), spongy);
@@ -596,7 +700,7 @@ impl Model for Torso {
                 if let Some(d) = canal.at(&p) {
                     lay(d, 10.0, Tissue::Fat);
                 }
-                for nerve in [&cord, &roots] {
+                for nerve in [&spinal_cord, &roots] {
                     if let Some(d) = nerve.at(&p) {
                         lay(d, 36.0, Tissue::Nerves);
                     }

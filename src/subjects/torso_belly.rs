@@ -2,6 +2,7 @@
 //!
 //! Millimetres as in `torso`; +x is the patient's right.
 
+use super::paint::Thin;
 use super::profile::Profile;
 use super::shape::{Field, Knot, at, ball, capsule, curve, ellipsoid, strap};
 
@@ -164,7 +165,7 @@ pub(super) struct Kidneys {
     pub(super) adrenals: Field,
 }
 
-pub(super) fn kidneys() -> Kidneys {
+pub(super) fn kidneys(thin: Thin) -> Kidneys {
     let (mut body, mut pyramids, mut sinus) =
         (Field::default(), Field::default(), Field::default());
     let (mut ureters, mut adrenals) = (Field::default(), Field::default());
@@ -196,18 +197,28 @@ pub(super) fn kidneys() -> Kidneys {
             }
         }
         // Pelvis of the kidney and ureter.
-        ureters.join_all(
-            0.0,
-            curve(&[
-                ([x - side * 8.0, y + 4.0, z + 6.0], 5.0),
-                ([x - side * 24.0, y + 7.0, z - 2.0], 7.0),
-                ([x - side * 29.0, y + 9.0, z - 18.0], 3.6),
-                ([side * 38.0, -2.0, z - 56.0], 2.8),
+        let mut knots = vec![
+            ([x - side * 8.0, y + 4.0, z + 6.0], 5.0),
+            ([x - side * 24.0, y + 7.0, z - 2.0], 7.0),
+            ([x - side * 29.0, y + 9.0, z - 18.0], 3.6),
+            ([side * 38.0, -2.0, z - 56.0], 2.8),
+        ];
+        knots.extend(match thin {
+            Thin::AsModelled => vec![
                 ([side * 34.0, 12.0, -212.0], 2.8),
                 ([side * 40.0, 4.0, -252.0], 2.8),
                 ([side * 36.0, -8.0, -300.0], 2.8),
-            ]),
-        );
+            ],
+            // Before the vessels of the pelvis.
+            Thin::Whole => vec![
+                ([side * 35.0, 12.0, -205.0], 2.8),
+                ([side * 33.0, 20.0, -236.0], 2.8),
+                ([side * 34.0, 20.0, -258.0], 2.8),
+                ([side * 35.0, 6.0, -280.0], 2.8),
+                ([side * 35.0, -8.0, -300.0], 2.8),
+            ],
+        });
+        ureters.join_all(0.0, curve(&knots));
         for (dx, dz) in [(-6.0f32, -8.0f32), (6.0, -8.0)] {
             adrenals.join(
                 2.0,
@@ -362,7 +373,7 @@ pub(super) fn tube(knots: &[Knot], inset: f32) -> Field {
 }
 
 /// Vessels of the belly: arteries, veins, and the vein of the liver with its branches.
-pub(super) fn vessels() -> (Field, Field) {
+pub(super) fn vessels(thin: Thin) -> (Field, Field) {
     let (mut arteries, mut veins) = (Field::default(), Field::default());
     let red = |f: &mut Field, knots: &[Knot]| f.join_all(1.5, curve(knots));
     // Trunk to liver, spleen, stomach.
@@ -421,14 +432,17 @@ pub(super) fn vessels() -> (Field, Field) {
             ([-44.0, -38.0, -112.0], 3.0),
         ],
     );
-    red(
-        &mut arteries,
-        &[
-            ([0.0, -10.0, -116.0], 3.8),
-            ([26.0, -28.0, -124.0], 3.4),
-            ([44.0, -36.0, -126.0], 3.0),
-        ],
-    );
+    // Whole, it runs before the spine.
+    let before_spine = match thin {
+        Thin::AsModelled => None,
+        Thin::Whole => Some(([16.0, -11.0, -120.0], 3.6)),
+    };
+    let right: Vec<Knot> = [([0.0, -10.0, -116.0], 3.8)]
+        .into_iter()
+        .chain(before_spine)
+        .chain([([26.0, -28.0, -124.0], 3.4), ([44.0, -36.0, -126.0], 3.0)])
+        .collect();
+    red(&mut arteries, &right);
     let blue = |f: &mut Field, knots: &[Knot]| f.join_all(1.5, curve(knots));
     blue(
         &mut veins,

@@ -4,7 +4,9 @@
 
 use glam::Vec3;
 
-use super::shape::{Field, Knot, Shape, capsule, curve, ellipsoid};
+use super::lanes::{LANES, Lanes, Points};
+use super::paint::Thin;
+use super::shape::{Field, Knot, Shape, along_curve, capsule, chain, curve, ellipsoid};
 
 /// The heart: its outside, and the rooms that hold blood.
 pub(super) struct Heart {
@@ -19,7 +21,7 @@ pub(super) struct Heart {
 
 const LV: ([f32; 3], [f32; 3]) = ([-20.0, 12.0, 42.0], [-72.0, 50.0, 4.0]);
 
-pub(super) fn heart() -> Heart {
+pub(super) fn heart(thin: Thin) -> Heart {
     let mut body = Field::default();
     // Rooms behind first: left atrium, right atrium, then the chambers.
     body.join(0.0, ellipsoid([-6.0, -16.0, 52.0], [38.0, 22.0, 27.0]));
@@ -69,8 +71,16 @@ pub(super) fn heart() -> Heart {
     grooves.join_all(0.0, curve(&ring.map(|(p, r)| (on(p, -1.0), r * 0.7))));
     grooves.join_all(0.0, curve(&front.map(|(p, r)| (on(p, -1.0), r * 0.6))));
     let mut arteries = Field::default();
+    // Where arteries and veins cross, the arteries lie farther out.
+    let [arteries_mm, veins_mm] = match thin {
+        Thin::AsModelled => [0.8, 0.8],
+        Thin::Whole => [1.8, -1.8],
+    };
     let mut add = |knots: &[Knot]| {
-        let laid: Vec<Knot> = knots.iter().map(|&(p, r)| (on(p, 0.8), r)).collect();
+        let laid: Vec<Knot> = knots
+            .iter()
+            .map(|&(p, r)| (on(p, arteries_mm), r))
+            .collect();
         arteries.join_all(0.0, curve(&laid));
     };
     add(&[
@@ -103,6 +113,28 @@ pub(super) fn heart() -> Heart {
         ([-56.0, -8.0, 40.0], 1.9),
         ([-60.0, 10.0, 12.0], 1.6),
     ]);
+    if thin == Thin::Whole {
+        // From the great artery, and from one to the next.
+        let start = |end: [f32; 3], r: f32| (on(end, arteries_mm), r);
+        for joint in [
+            [([0.0, 28.0, 68.0], 2.6), start([8.0, 44.0, 76.0], 2.6)],
+            [([-8.0, 24.0, 64.0], 2.6), start([-30.0, 34.0, 72.0], 2.6)],
+            [
+                start([-30.0, 34.0, 72.0], 2.3),
+                start([-34.0, 28.0, 70.0], 2.3),
+            ],
+            [
+                start([27.0, 56.0, 22.0], 1.9),
+                start([27.0, 56.0, 14.0], 1.9),
+            ],
+            [
+                start([-42.0, 58.0, 52.0], 1.9),
+                start([-48.0, 62.0, 42.0], 1.9),
+            ],
+        ] {
+            arteries.join_all(0.0, chain(&joint));
+        }
+    }
     let mut veins = Field::default();
     let laid: Vec<Knot> = [
         ([-76.0, 60.0, 0.0], 1.7),
@@ -111,10 +143,19 @@ pub(super) fn heart() -> Heart {
         ([-20.0, -14.0, 20.0], 3.6),
         ([16.0, -2.0, 8.0], 3.8),
     ]
-    .map(|(p, r)| (on(p, 0.8), r))
+    .map(|(p, r)| (on(p, veins_mm), r))
     .to_vec();
     veins.join_all(0.0, curve(&laid[..2]));
     veins.join_all(0.0, curve(&laid[2..]));
+    if thin == Thin::Whole {
+        let between = along_curve(&[
+            ([-52.0, 64.0, 40.0], 2.2),
+            ([-62.0, 30.0, 58.0], 2.6),
+            ([-52.0, -4.0, 46.0], 3.0),
+        ]);
+        let laid: Vec<Knot> = between.iter().map(|&(p, r)| (on(p, veins_mm), r)).collect();
+        veins.join_all(0.0, chain(&laid));
+    }
     let mut left_rooms = Field::default();
     left_rooms.join(0.0, ellipsoid([-6.0, -16.0, 52.0], [35.0, 19.0, 24.0]));
     left_rooms.join(
@@ -196,6 +237,27 @@ pub(super) fn windpipe(inset: f32) -> Field {
         ]),
     );
     f
+}
+
+/// How far before the spine the hoops of the windpipe and of its main bronchi end, y in mm.
+pub(super) fn windpipe_behind(p: &Points) -> Lanes {
+    const OFF_AXIS_MM: f32 = 4.0;
+    // The axis of the windpipe by height, and those of the bronchi by how far they have gone aside.
+    const AXIS: [[f32; 2]; 4] = [[104.0, -10.0], [140.0, 0.0], [190.0, 14.0], [240.0, 22.0]];
+    let mut y = Lanes::splat(0.0);
+    for i in 0..LANES {
+        let (x, z) = (p.x[i], p.z[i]);
+        let aside = if x > 0.0 { -0.15 * x } else { 0.28 * x };
+        let mut axis = AXIS[0][1] + aside;
+        for pair in AXIS.windows(2) {
+            let t = (z - pair[0][0]) / (pair[1][0] - pair[0][0]);
+            if t > 0.0 {
+                axis = pair[0][1] + (pair[1][1] - pair[0][1]) * t.min(1.0);
+            }
+        }
+        y[i] = axis - OFF_AXIS_MM;
+    }
+    y
 }
 
 pub(super) fn gullet() -> Field {
@@ -312,7 +374,7 @@ pub(super) fn lung_trees() -> [Field; 3] {
 }
 
 /// Arteries and veins of the chest, the neck and along the spine.
-pub(super) fn vessels() -> (Field, Field) {
+pub(super) fn vessels(thin: Thin) -> (Field, Field) {
     let (mut arteries, mut veins) = (Field::default(), Field::default());
     let tube = |f: &mut Field, knots: &[Knot]| f.join_all(2.0, curve(knots));
     // The great artery: root, arch, down the spine, parting before L4.
@@ -358,18 +420,22 @@ pub(super) fn vessels() -> (Field, Field) {
         } else {
             ([-16.0, -10.0, 136.0], 5.6)
         };
-        tube(
-            &mut arteries,
-            &[
-                root,
-                ([side * 28.0, 2.0, 164.0], 5.2),
-                ([side * 54.0, 6.0, 168.0], 5.0),
-                ([side * 92.0, 0.0, 150.0], 4.6),
-                ([side * 134.0, -14.0, 118.0], 4.4),
-                ([side * 168.0, -20.0, 84.0], 4.0),
-                ([side * 190.0, -22.0, 60.0], 4.0),
-            ],
-        );
+        let mut arm = vec![
+            root,
+            ([side * 28.0, 2.0, 164.0], 5.2),
+            ([side * 54.0, 6.0, 168.0], 5.0),
+        ];
+        if thin == Thin::Whole {
+            // Over the first rib, or through it.
+            arm.push(([side * 72.0, 7.0, 160.0], 4.8));
+        }
+        arm.extend([
+            ([side * 92.0, 0.0, 150.0], 4.6),
+            ([side * 134.0, -14.0, 118.0], 4.4),
+            ([side * 168.0, -20.0, 84.0], 4.0),
+            ([side * 190.0, -22.0, 60.0], 4.0),
+        ]);
+        tube(&mut arteries, &arm);
         let root: Knot = if side > 0.0 {
             ([16.0, 14.0, 148.0], 5.0)
         } else {
@@ -384,6 +450,17 @@ pub(super) fn vessels() -> (Field, Field) {
                 ([side * 27.0, 10.0, 240.0], 4.2),
             ],
         );
+        if thin == Thin::Whole {
+            // Behind the breastbone, from that under the collar bone.
+            tube(
+                &mut arteries,
+                &[
+                    ([side * 28.0, 3.0, 163.0], 1.9),
+                    ([side * 19.0, 22.0, 156.0], 1.9),
+                    ([side * 17.0, 34.0, 142.0], 1.9),
+                ],
+            );
+        }
         tube(
             &mut arteries,
             &[

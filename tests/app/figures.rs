@@ -145,7 +145,7 @@ fn a_picture_that_is_opened_is_a_figure() {
     window.settle();
     let subject = &window.document().illustration().subject.clone();
     assert!(
-        matches!(subject, SubjectRef::Builtin { name } if name == "cube"),
+        matches!(subject, SubjectRef::Builtin { name, .. } if name == "cube"),
         "{subject:?}"
     );
 }

@@ -440,13 +440,17 @@ fn an_opened_file_becomes_the_subject_by_its_hash() {
     assert_eq!(
         window.document().illustration().subject,
         SubjectRef::Builtin {
-            name: "cube".to_owned()
+            name: "cube".to_owned(),
+            revision: 1
         }
     );
     let last = log.0.borrow().loads.last().cloned();
     assert_eq!(
         last.map(|want| want.source),
-        Some(Source::Builtin("cube".to_owned())),
+        Some(Source::Builtin {
+            name: "cube".to_owned(),
+            revision: 1,
+        }),
         "and the cube is there again"
     );
 }
@@ -509,6 +513,7 @@ fn a_picture_that_waits_for_something_says_for_what() {
         .state_mut()
         .run(fabrica::app::Command::SetSubject(SubjectRef::Builtin {
             name: "bar".to_owned(),
+            revision: 1,
         }));
     window.settle();
     assert!(

@@ -204,7 +204,7 @@ impl Services for Fake {
         let ticket = Ticket(log.next_ticket);
         log.loads.push(want.clone());
         if !log.is_slow
-            && let Source::Builtin(name) = &want.source
+            && let Source::Builtin { name, .. } = &want.source
         {
             let resolution = if name == "head" && std::env::var_os("FABRICA_LOOK_AT").is_some() {
                 HEAD_RESOLUTION

@@ -387,6 +387,7 @@ fn cost(page: &mut Page) {
     page.text("<b>Alignment</b> (table 6.3): as <code>fabrica bench</code>, 160 × 120 pixels of the head under one peel; ratio to the same peel that moves everything. (The dissertation: 1.12 to 1.29 for the surface, 1.14 for segments.) A frame is what moving the camera costs; what is made once per edit is beside it.");
     let named = SubjectRef::Builtin {
         name: "head".to_owned(),
+        revision: 1,
     };
     let subject = Subject::from(volume);
     let bench = (&subject, &named);

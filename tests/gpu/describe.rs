@@ -22,7 +22,7 @@ fn gallery(name: &str) -> Document {
 }
 
 fn studio(document: &Document, resolution: u32) -> (Studio, f64) {
-    let SubjectRef::Builtin { name } = &document.illustration().subject else {
+    let SubjectRef::Builtin { name, .. } = &document.illustration().subject else {
         panic!("the gallery is built in")
     };
     let subject = Subject::from(builtin(name, resolution));

@@ -47,7 +47,7 @@ pub(crate) fn figure_image(json: &str, size: [u32; 2], samples: u32) -> Image {
     assert!(document.notices().is_empty(), "{:?}", document.notices());
     let illustration = document.illustration();
     let name = match &illustration.subject {
-        fabrica::document::SubjectRef::Builtin { name } => name.clone(),
+        fabrica::document::SubjectRef::Builtin { name, .. } => name.clone(),
         other => panic!("{other:?} is not built in"),
     };
     let plate = builtin_plate(&name).expect("built in");

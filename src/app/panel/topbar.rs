@@ -127,15 +127,14 @@ fn subject_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     )
     .show_ui(ui, |ui| {
         for name in crate::subjects::all_names() {
-            let subject = SubjectRef::Builtin {
-                name: (*name).to_owned(),
-            };
+            let is_shown =
+                matches!(current, SubjectRef::Builtin { name: shown, .. } if shown == name);
             if ui
-                .selectable_label(*current == subject, names::subject(name))
+                .selectable_label(is_shown, names::subject(name))
                 .clicked()
-                && *current != subject
+                && !is_shown
             {
-                commands.push(Command::SetSubject(subject));
+                commands.push(Command::SetSubject(SubjectRef::newest(name)));
             }
         }
         ui.separator();

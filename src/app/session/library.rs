@@ -87,7 +87,7 @@ impl Example {
     /// Name of its built-in subject; empty for another one.
     pub fn subject(&self) -> &str {
         match &self.document.illustration().subject {
-            SubjectRef::Builtin { name } => name,
+            SubjectRef::Builtin { name, .. } => name,
             SubjectRef::Address { .. }
             | SubjectRef::Supplied { .. }
             | SubjectRef::Meshes { .. }

@@ -416,8 +416,9 @@ fn mesh_of(subject: &SubjectRef) -> Option<MeshRef> {
 
 /// Where the voxels of a subject come from, if it is a volume.
 fn voxels_of(subject: &SubjectRef) -> Option<VoxelSource> {
-    if let SubjectRef::Builtin { name } = subject {
-        return Some(VoxelSource::Builtin(name.clone()));
+    if let SubjectRef::Builtin { name, revision } = subject {
+        let (name, revision) = (name.clone(), *revision);
+        return Some(VoxelSource::Builtin { name, revision });
     }
     let (src, sha256, name, reading) = file_of(subject)?;
     Some(VoxelSource::File {

@@ -189,6 +189,7 @@ mod tests {
     fn cube() -> SubjectRef {
         SubjectRef::Builtin {
             name: "cube".to_owned(),
+            revision: 1,
         }
     }
 

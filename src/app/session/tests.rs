@@ -372,6 +372,7 @@ fn undo_loads_the_subject_that_it_brings_back() {
     let before = session.illustration().subject.clone();
     let other = SubjectRef::Builtin {
         name: "cube".to_owned(),
+        revision: 1,
     };
     assert_ne!(before, other);
     let effects = run(&mut session, Command::SetSubject(other.clone()));

@@ -262,7 +262,7 @@ pub(crate) fn subject_title(shown: &Illustration) -> String {
         }
     };
     match &shown.subject {
-        SubjectRef::Builtin { name } => subject(name),
+        SubjectRef::Builtin { name, .. } => subject(name),
         SubjectRef::Address { name, .. } => or(name, from_address),
         SubjectRef::Supplied { name, .. } => or(name, own),
         SubjectRef::Meshes { meshes, .. } => match meshes.as_slice() {

@@ -45,7 +45,7 @@ pub(crate) fn examples(root: &Path) -> Result<Vec<(String, Document)>, String> {
     let anatomy = FIRST.into_iter().chain(DRAWN_FIGURES);
     let names: Vec<&str> = anatomy.chain(subjects::all_names()).collect();
     examples.sort_by_key(|(_, document)| match &document.illustration().subject {
-        SubjectRef::Builtin { name } => names.iter().position(|other| other == name),
+        SubjectRef::Builtin { name, .. } => names.iter().position(|other| other == name),
         SubjectRef::Address { .. }
         | SubjectRef::Supplied { .. }
         | SubjectRef::Meshes { .. }

@@ -69,7 +69,7 @@ impl Clay {
         let (src, sha256, name) = match &self.from {
             ClayStart::Mesh(mesh) => (&mesh.src, &mesh.sha256, &mesh.name),
             ClayStart::Volume(volume) => match &volume.of {
-                VoxelSource::Builtin(_) => return None,
+                VoxelSource::Builtin { .. } => return None,
                 VoxelSource::File {
                     src, sha256, name, ..
                 } => (src, sha256, name),
@@ -116,7 +116,7 @@ impl Clay {
                     sha256,
                     name: String::new(),
                     reading: match &volume.of {
-                        VoxelSource::Builtin(_) => Reading::default(),
+                        VoxelSource::Builtin { .. } => Reading::default(),
                         VoxelSource::File { reading, .. } => reading.clone(),
                     },
                 },

@@ -22,8 +22,13 @@ impl ClayVolume {
 #[derive(Clone, Debug, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "a clay holds the whole in a box")]
 pub enum VoxelSource {
-    /// A subject that the program generates, by its name.
-    Builtin(String),
+    /// A subject that the program generates.
+    Builtin {
+        /// As [`SubjectRef::Builtin`](super::SubjectRef::Builtin) has it.
+        name: String,
+        /// Which of its revisions, from 1.
+        revision: u32,
+    },
     /// A file with a scan; it has an address, or a hash by which the reader's file is known, or both.
     File {
         /// The address, relative to the document or absolute.

@@ -28,8 +28,6 @@ pub struct Illustration {
     pub lang: String,
     /// The subject that is illustrated.
     pub subject: SubjectRef,
-    /// Revision of a built-in subject that was improved since; `None` is the first.
-    pub subject_revision: Option<u32>,
     /// Meshes that come with the subject's own file or built-in subject. A subject of meshes alone has its meshes in
     /// [`SubjectRef::Meshes`]; [`Illustration::meshes`] gives either.
     pub meshes_beside: Vec<MeshRef>,
@@ -70,8 +68,8 @@ impl Illustration {
             lang: String::new(),
             subject: SubjectRef::Builtin {
                 name: DEFAULT_SUBJECT.to_owned(),
+                revision: 1,
             },
-            subject_revision: None,
             meshes_beside: Vec::new(),
             segments: Vec::new(),
             recipes: Vec::new(),

@@ -3,6 +3,7 @@
 use super::clay::Clay;
 use super::mesh::{MeshRef, SubjectBox};
 use super::reading::Reading;
+use crate::document::limits::newest_revision;
 use std::sync::Arc;
 
 /// How the names of built-in figures begin.
@@ -15,6 +16,8 @@ pub enum SubjectRef {
     Builtin {
         /// `head`, `bar`, `cube`, …
         name: String,
+        /// Which of its revisions, from 1; the first where a document names none.
+        revision: u32,
     },
     /// A file at an address, relative to the document or absolute.
     Address {
@@ -53,9 +56,17 @@ pub fn is_drawn_name(name: &str) -> bool {
 }
 
 impl SubjectRef {
+    /// The newest revision of a built-in subject: what a new document shows.
+    pub fn newest(name: &str) -> Self {
+        Self::Builtin {
+            name: name.to_owned(),
+            revision: newest_revision(name),
+        }
+    }
+
     /// True for a built-in figure: its name begins with `drawn-`, whether this version knows it or not.
     pub fn is_drawn_figure(&self) -> bool {
-        matches!(self, Self::Builtin { name } if is_drawn_name(name))
+        matches!(self, Self::Builtin { name, .. } if is_drawn_name(name))
     }
 
     /// True for what the program makes itself: a built-in subject or a clay.

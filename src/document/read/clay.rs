@@ -165,7 +165,10 @@ impl Reader {
         let others = ["src", "sha256", "frame", "raw"];
         self.left_aside(of, &others, "the built-in subject");
         let name = builtin.unwrap_or(DEFAULT_SUBJECT);
-        Ok(VoxelSource::Builtin(name.to_owned()))
+        Ok(VoxelSource::Builtin {
+            name: name.to_owned(),
+            revision: self.revision(of, name)?,
+        })
     }
 
     fn clay_tool(&mut self, object: &Object<'_>) -> Result<ClayTool, DocumentError> {

@@ -52,7 +52,6 @@ impl Reader {
         self.unknown_keys(&root);
         let subject_object = root.child("subject")?;
         let (subject, meshes_beside) = self.subject(&subject_object)?;
-        let subject_revision = self.revision(&subject_object)?;
         let segments = self.segments(&subject_object)?;
         let recipes = self.recipes(&subject_object)?;
         let objects = self.objects(&root)?;
@@ -128,7 +127,6 @@ impl Reader {
             credit: root.string("credit")?,
             lang: root.string("lang")?,
             subject,
-            subject_revision,
             meshes_beside,
             segments,
             recipes,

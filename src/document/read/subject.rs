@@ -2,7 +2,7 @@
 
 use super::object::{Object, wrong};
 use super::reader::Reader;
-use crate::document::limits::{BUILTIN_SUBJECTS, DEFAULT_SUBJECT, DRAWN_FIGURES};
+use crate::document::limits::{BUILTIN_SUBJECTS, DEFAULT_SUBJECT, DRAWN_FIGURES, newest_revision};
 use crate::document::model::{MeshRef, RawVoxels, Reading, SegmentsRef, SubjectRef};
 use crate::document::text::{DocumentError, NoticeKind, shortened};
 use serde_json::Value;
@@ -18,6 +18,8 @@ impl Reader {
         object: &Object<'_>,
     ) -> Result<(SubjectRef, Vec<MeshRef>), DocumentError> {
         self.unknown_keys(object);
+        // Checked here, whatever is shown.
+        object.whole("revision")?;
         let meshes = self.meshes(object)?;
         let has = |key: &&str| object.map.contains_key(*key);
         let is_meshes = !object.list("meshes")?.is_empty();
@@ -81,6 +83,7 @@ impl Reader {
             self.left_aside(object, &OF_FILE, "the built-in subject");
             return Ok(SubjectRef::Builtin {
                 name: builtin.to_owned(),
+                revision: self.revision(object, builtin)?,
             });
         }
         let reading = self.reading(object)?;
@@ -98,6 +101,7 @@ impl Reader {
             },
             (None, None) => SubjectRef::Builtin {
                 name: DEFAULT_SUBJECT.to_owned(),
+                revision: self.revision(object, DEFAULT_SUBJECT)?,
             },
         })
     }
@@ -135,15 +139,19 @@ impl Reader {
         })
     }
 
-    pub(super) fn revision(&mut self, object: &Object<'_>) -> Result<Option<u32>, DocumentError> {
-        match object.map.get("revision") {
-            None => Ok(None),
-            Some(value) => value
-                .as_u64()
-                .and_then(|revision| u32::try_from(revision).ok())
-                .map(Some)
-                .ok_or_else(|| wrong(&object.at("revision"), "a whole number", value)),
+    /// The revision of a built-in subject. The newest stands in for one that this version does not know.
+    pub(super) fn revision(
+        &mut self,
+        object: &Object<'_>,
+        name: &str,
+    ) -> Result<u32, DocumentError> {
+        let revision = u32::try_from(object.whole("revision")?).unwrap_or(u32::MAX);
+        let newest = newest_revision(name);
+        if revision > newest && BUILTIN_SUBJECTS.contains(&name) {
+            let kind = NoticeKind::UnknownRevision { revision, newest };
+            self.note(object.at("revision"), kind);
         }
+        Ok(revision.clamp(1, newest))
     }
 
     /// One label volume, or a list of them.

@@ -16,7 +16,7 @@ impl Reader {
         subject: &SubjectRef,
     ) -> Result<SurfaceLook, DocumentError> {
         let own = match subject {
-            SubjectRef::Builtin { name } if !look.map.contains_key("layers") => {
+            SubjectRef::Builtin { name, .. } if !look.map.contains_key("layers") => {
                 Layer::of_builtin(name)
             }
             _ => Vec::new(),

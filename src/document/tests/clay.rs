@@ -232,7 +232,8 @@ fn a_clay_may_begin_with_a_part_of_a_volume() {
     let skin = json!({ "of": { "builtin": "head" }, "segment": "skin" });
     let (document, volume) = volume_of(&skin);
     assert_eq!(document.notices(), []);
-    assert_eq!(volume.of, VoxelSource::Builtin("head".to_owned()));
+    let (name, revision) = ("head".to_owned(), 1);
+    assert_eq!(volume.of, VoxelSource::Builtin { name, revision });
     assert_eq!(volume.part, VoxelPart::Segment("skin".to_owned()));
     assert!(!volume.has_all_walls);
     let subject = &document.illustration().subject;
@@ -646,6 +647,7 @@ fn an_edit_writes_a_clay_as_it_is() {
     // Another subject takes its place.
     let cube = SubjectRef::Builtin {
         name: "cube".to_owned(),
+        revision: 1,
     };
     let other = Edit::SetSubject(cube).apply(&document).expect("a cube");
     assert_eq!(

@@ -756,6 +756,7 @@ fn notices_name_what_goes_with_another_subject() {
     assert_eq!(told(&later).len(), 5, "a figure all the same");
     let arm = |name: &str| SubjectRef::Builtin {
         name: name.to_owned(),
+        revision: 1,
     };
     assert!(arm("drawn-").is_drawn_figure() && !arm("drawnarm").is_drawn_figure());
 }

@@ -481,6 +481,7 @@ fn typed_edits_write_what_they_say() {
         }),
         Edit::SetSubject(SubjectRef::Builtin {
             name: "bar".to_owned(),
+            revision: 1,
         }),
         Edit::AddCaption(Caption {
             at: Vec3::X,

@@ -160,7 +160,7 @@ fn meshes_are_the_subject_or_lie_beside_it() {
     assert_eq!(shown.subject.src(), Some("a.stl"));
     // Beside meshes the head is written, which alone it is not.
     let (head, shown) = subject(json!({ "meshes": mesh, "builtin": "head" }));
-    assert!(matches!(&shown.subject, SubjectRef::Builtin { name } if name == "head"));
+    assert!(matches!(&shown.subject, SubjectRef::Builtin { name, .. } if name == "head"));
     assert_eq!(shown.meshes().len(), 1);
     assert_eq!(
         head.to_json_compact(),
@@ -737,6 +737,7 @@ fn meshes_are_added_where_nothing_moves() {
     // Another subject brings its own meshes.
     let cube = SubjectRef::Builtin {
         name: "cube".to_owned(),
+        revision: 1,
     };
     history.apply(&Edit::SetSubject(cube)).expect("set");
     assert_eq!(

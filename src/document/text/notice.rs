@@ -54,6 +54,13 @@ pub enum NoticeKind {
         /// The value as the document writes it.
         found: String,
     },
+    /// A revision of a built-in subject that this version does not know.
+    UnknownRevision {
+        /// The revision in the document.
+        revision: u32,
+        /// The newest that this version knows, which is drawn.
+        newest: u32,
+    },
     /// A value that this version knows but does not draw.
     NotDrawn {
         /// The thing that is not drawn, in plain words.
@@ -153,6 +160,10 @@ impl fmt::Display for Notice {
             NoticeKind::UnknownSubject { found } => write!(
                 f,
                 "{pointer}: this version does not know the built-in subject “{found}”; it is kept, not drawn"
+            ),
+            NoticeKind::UnknownRevision { revision, newest } => write!(
+                f,
+                "{pointer}: this version does not know revision {revision} of the subject; revision {newest} is drawn"
             ),
             NoticeKind::NotDrawn { what } => {
                 write!(f, "{pointer}: {what} not drawn yet; kept")

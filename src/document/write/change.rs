@@ -262,7 +262,13 @@ impl Edit {
                 let mut put =
                     |key: &str, value: &str| set(root, &join("/subject", key), json!(value));
                 match subject {
-                    SubjectRef::Builtin { name } => put("builtin", name),
+                    SubjectRef::Builtin { name, revision } => {
+                        put("builtin", name)?;
+                        match revision {
+                            0 | 1 => Ok(()),
+                            _ => set(root, "/subject/revision", json!(revision)),
+                        }
+                    }
                     SubjectRef::Address {
                         src, sha256, name, ..
                     } => {

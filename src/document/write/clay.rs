@@ -57,7 +57,12 @@ impl ClayVolume {
         let mut of = json!({});
         let mut set = |key: &str, to: Value| of[key] = to;
         match &self.of {
-            VoxelSource::Builtin(name) => set("builtin", json!(name)),
+            VoxelSource::Builtin { name, revision } => {
+                set("builtin", json!(name));
+                if *revision > 1 {
+                    set("revision", json!(revision));
+                }
+            }
             VoxelSource::File {
                 src,
                 sha256,

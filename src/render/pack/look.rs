@@ -41,7 +41,9 @@ pub fn linear_color(srgb: [u8; 3]) -> Vec3 {
 pub fn auto_preset(subject: &SubjectRef, info: &SubjectInfo) -> &'static str {
     match subject {
         // Lungs are nearly air: they need a table of their own to be seen.
-        SubjectRef::Builtin { name } if info.has_segments && name == "torso" => "tissue-and-lungs",
+        SubjectRef::Builtin { name, .. } if info.has_segments && name == "torso" => {
+            "tissue-and-lungs"
+        }
         SubjectRef::Builtin { .. } if info.has_segments => "tissue",
         _ if info.is_ct => "ct-soft-tissue",
         _ => "mri",

@@ -34,7 +34,7 @@ pub(super) fn about(common: &Common, opened: &Opened) -> Result<(), CliError> {
         text += &format!("title: {}\n", one_line(&illustration.title));
     }
     text += &match &illustration.subject {
-        SubjectRef::Builtin { name } => format!("subject: built-in {}\n", one_line(name)),
+        SubjectRef::Builtin { name, .. } => format!("subject: built-in {}\n", one_line(name)),
         SubjectRef::Address { src, name, .. } => format!("subject: {}\n", of_file(src, name)),
         SubjectRef::Supplied { sha256, name, .. } => {
             format!("subject: {}\n", of_supplied(sha256, name))
@@ -85,7 +85,7 @@ fn of_volume(volume: &ClayVolume) -> String {
         VoxelPart::Iso(value) => format!("values from {value}"),
     };
     let of = match &volume.of {
-        VoxelSource::Builtin(name) => format!("built-in {}", one_line(name)),
+        VoxelSource::Builtin { name, .. } => format!("built-in {}", one_line(name)),
         VoxelSource::File {
             src, sha256, name, ..
         } => of_either(src.as_deref(), sha256.as_deref(), name),

@@ -27,7 +27,7 @@ pub(super) fn bench(common: &Common, as_json: bool) -> Result<(), CliError> {
     let illustration = Document::new().illustration().clone();
     let given = subject_of(&illustration, common, Path::new("."), gpu.volume_limits())?;
     let (scan, surface) = match given {
-        Subject::Mesh(surface) => (generate(SCAN)?, surface),
+        Subject::Mesh(surface) => (generate(SCAN, 1)?, surface),
         scan @ Subject::Space(_) => (scan, built_in_mesh()?),
         Subject::Figure(_) => {
             return Err(CliError::Usage("figures are measured without --subject"));

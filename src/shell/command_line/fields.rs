@@ -121,8 +121,8 @@ pub(super) fn subject_grid(
     folder: &Path,
 ) -> Result<Grid, CliError> {
     if common.subject.is_none()
-        && let SubjectRef::Builtin { name } = &illustration.subject
-        && let Ok(generator) = Generator::new(name, FINE_RESOLUTION)
+        && let SubjectRef::Builtin { name, revision } = &illustration.subject
+        && let Ok(generator) = Generator::of_revision(name, *revision, FINE_RESOLUTION)
     {
         return Ok(generator.header().grid);
     }

@@ -46,7 +46,7 @@ pub(super) fn objects_of(
             continue;
         }
         match &want.source {
-            Source::Builtin(name) => {
+            Source::Builtin { name, .. } => {
                 let data = Data::Object {
                     mesh: generated(name, want.reading.carves)?,
                     sha256: None,

@@ -44,9 +44,7 @@ pub(super) fn subject_of(
     }
     for want in Wanted::of(illustration).0 {
         match want.role {
-            Role::Subject => {
-                take_subject(&mut assets, &want, illustration, common, folder, limits)?
-            }
+            Role::Subject => take_subject(&mut assets, &want, common, folder, limits)?,
             Role::Segments => take_segments(&mut assets, &want, &mut given, folder)?,
             // Fields come by `fields_of`, as they need the subject's grid only.
             Role::Field => {}
@@ -113,7 +111,6 @@ pub(super) fn report_missing(what: &str, want: &Want, folder: &Path) {
 fn take_subject(
     assets: &mut Assets,
     want: &Want,
-    illustration: &Illustration,
     common: &Common,
     folder: &Path,
     limits: VolumeLimits,
@@ -127,17 +124,10 @@ fn take_subject(
     let path = file_of(want, common, folder)?;
     let data = match (&want.source, &path) {
         (_, Some(path)) => read(path, &reading, limits, folder, &common.meshes)?,
-        (Source::Builtin(name), None) => {
-            if let Some(revision) = illustration.subject_revision.filter(|r| *r > 1) {
-                notice(format!(
-                    "/subject/revision: this version does not know revision {revision} of {name}; the first is drawn"
-                ));
-            }
-            Data::Subject {
-                subject: generate(name)?,
-                sha256: None,
-            }
-        }
+        (Source::Builtin { name, revision }, None) => Data::Subject {
+            subject: generate(name, *revision)?,
+            sha256: None,
+        },
         (_, None) => return Err(MissingSubject::wanted(want)),
     };
     if common.subject.is_none() {
@@ -281,7 +271,7 @@ pub(super) fn surface_of(mesh: &Mesh) -> Result<Arc<Surface>, MissingSubject> {
 ///
 /// # Errors
 /// [`SubjectError::UnknownName`].
-pub(super) fn generate(name: &str) -> Result<Subject, MissingSubject> {
+pub(super) fn generate(name: &str, revision: u32) -> Result<Subject, MissingSubject> {
     if DRAWN_FIGURES.contains(&name) {
         let plate = builtin_plate(name).map_err(|error| SubjectError::Refused(error.to_string()));
         return Ok(plate?.into());
@@ -289,7 +279,7 @@ pub(super) fn generate(name: &str) -> Result<Subject, MissingSubject> {
     if let Some(mesh) = mesh(name) {
         return Ok(surface_of(&mesh)?.into());
     }
-    let generator = Generator::new(name, FINE_RESOLUTION)?;
+    let generator = Generator::of_revision(name, revision, FINE_RESOLUTION)?;
     let mut builder = VolumeBuilder::new();
     builder
         .take(SubjectPart::header(generator.header()))

@@ -130,7 +130,7 @@ pub fn start(
     on_answer: impl FnMut(Answer) + 'static,
 ) -> Result<WorkerLoad, JsValue> {
     let part = task.part();
-    if part != Part::Clay && matches!(task, Task::Subject(..) | Task::Scan(_)) {
+    if part != Part::Clay && matches!(task, Task::Subject { .. } | Task::Scan(_)) {
         end_resting();
     }
     let worker = worker_for(part, maker)?;

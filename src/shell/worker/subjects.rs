@@ -23,12 +23,13 @@ pub fn run(message: JsValue) -> Result<(), JsValue> {
     post::module_unless_known(&message, Part::Subjects)?;
     let get = |key: &str| Reflect::get(&message, &key.into());
     let name = get("builtin")?.as_string().unwrap_or_default();
+    let revision = get("revision")?.as_f64().map_or(1, |n| n as u32);
     let mut post = |event: LoadEvent| post::event(event).is_ok();
     let both = resolutions(limits_of(&message)?);
     let one = get("resolution")?
         .as_f64()
         .map(|resolution| [resolution as u32]);
     let wanted = one.as_ref().map_or(both.as_slice(), |one| one.as_slice());
-    make_subject(&name, wanted, slabs_in_turn, &mut post);
+    make_subject((&name, revision), wanted, slabs_in_turn, &mut post);
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! What a part is asked to do, as a message to its worker: an object with the fields `part` (its name), `module` (its
 //! compiled module, if the page has it), `max_dim` and `max_voxels` (the limits of the device), `task` (`true`), and
-//! - for the makers of subjects `builtin` (a name) and `resolution` (voxels along the longest side; without it the
-//!   coarse volume comes first, then the fine one),
+//! - for the makers of subjects `builtin` (a name), `revision` and `resolution` (voxels along the longest side; without
+//!   it the coarse volume comes first, then the fine one),
 //! - for the readers of scans and of meshes `builtin` (of a mesh) and `carves`, `files` (pairs of name and `Blob`),
 //!   `address`, or `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label
 //!   volumes), `has_scan` and `may_be_field`,
@@ -88,8 +88,15 @@ impl Part {
 /// What a part is to do.
 #[derive(Clone, Debug)]
 pub enum Task {
-    /// Make a built-in subject: coarse and then fine, or once with this many voxels along its longest side.
-    Subject(String, Option<u32>),
+    /// Make a built-in subject.
+    Subject {
+        /// As documents write it.
+        name: String,
+        /// Which of its revisions, from 1.
+        revision: u32,
+        /// Voxels along its longest side; `None`: coarse and then fine.
+        resolution: Option<u32>,
+    },
     /// Read files: a scan, meshes, labels or a displacement field.
     Scan(ScanTask),
     /// Bend a figure, by the bender of this number.
@@ -152,14 +159,23 @@ pub enum ScanTask {
 }
 
 impl Task {
+    /// The task to make a revision of a built-in subject, coarse and then fine.
+    pub fn subject(name: &str, revision: u32) -> Self {
+        Self::Subject {
+            name: name.to_owned(),
+            revision,
+            resolution: None,
+        }
+    }
+
     /// The program that does it, as far as names tell; a part that finds otherwise hands the task on.
     pub fn part(&self) -> Part {
         match self {
             Self::Bend(..) => Part::Figures,
             Self::Clay(..) => Part::Clay,
-            Self::Subject(name, _) if is_drawn_name(name) => Part::Figures,
-            Self::Subject(name, _) if mesh_names().contains(&name.as_str()) => Part::Meshes,
-            Self::Subject(..) => Part::Subjects,
+            Self::Subject { name, .. } if is_drawn_name(name) => Part::Figures,
+            Self::Subject { name, .. } if mesh_names().contains(&name.as_str()) => Part::Meshes,
+            Self::Subject { .. } => Part::Subjects,
             Self::Scan(ScanTask::Mesh(..)) => Part::Meshes,
             Self::Scan(ScanTask::Files { files, .. }) => {
                 if let [(name, _)] = files.as_slice()
@@ -213,8 +229,13 @@ impl Task {
                     file.put_into(&message)?;
                 }
             }
-            Self::Subject(name, resolution) => {
+            Self::Subject {
+                name,
+                revision,
+                resolution,
+            } => {
                 set("builtin", &name.into())?;
+                set("revision", &(*revision).into())?;
                 set("resolution", &(*resolution).into())?;
             }
             Self::Scan(task) => task.put_into(&message)?,
