@@ -3,6 +3,9 @@
 //! The labels, and the values, are the same bit for bit on every machine: only arithmetic that IEEE 754 rounds exactly
 //! is used, sines come from `libm`, and nothing depends on the order of a hash or on the number of threads.
 //!
+//! A subject that is improved keeps its older revisions, which documents name: what a link shows stays. What differs
+//! between them is a choice of the model ([`Generator::of_revision`]); the newest is what new documents show.
+//!
 //! A small `resolution` gives the coarse picture that a page shows first, a large one the same model finely.
 //!
 //! ```

@@ -9,7 +9,7 @@ use crate::app::kit::widget::{self, Named as _};
 use crate::app::session::{ClayCommand, Command, LibraryCommand, Session};
 use crate::app::words::bar::w;
 use crate::app::words::{self, Lang, facts, fill, names};
-use crate::document::{ClayShape, ClayStart, SubjectRef};
+use crate::document::{ClayShape, ClayStart, SubjectRef, newest_revision};
 
 /// Width of the bar in points from which on the examples have a button in it; else they are in the menu.
 const EXAMPLES_WIDTH: f32 = 880.0;
@@ -134,6 +134,16 @@ fn subject_ui(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 .clicked()
                 && !is_shown
             {
+                commands.push(Command::SetSubject(SubjectRef::newest(name)));
+            }
+        }
+        if let SubjectRef::Builtin { name, revision } = current
+            && *revision < newest_revision(name)
+        {
+            ui.separator();
+            let title = fill(w().newer_subject, &[&names::subject(name)]);
+            let newer = ui.selectable_label(false, title);
+            if newer.on_hover_text(w().newer_subject_hint).clicked() {
                 commands.push(Command::SetSubject(SubjectRef::newest(name)));
             }
         }

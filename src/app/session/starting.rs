@@ -160,11 +160,13 @@ impl Session {
     }
 }
 
-/// True if two subjects are the same, or are read from the same file.
+/// True if two subjects are the same or revisions of one, or are read from the same file.
 fn is_same_file(one: &SubjectRef, other: &SubjectRef) -> bool {
     match (one, other) {
         (SubjectRef::Supplied { sha256: a, .. }, SubjectRef::Supplied { sha256: b, .. }) => a == b,
         (SubjectRef::Address { src: a, .. }, SubjectRef::Address { src: b, .. }) => a == b,
+        // Revisions of one subject have the same segments.
+        (SubjectRef::Builtin { name: a, .. }, SubjectRef::Builtin { name: b, .. }) => a == b,
         _ => one == other,
     }
 }
@@ -232,6 +234,27 @@ mod tests {
             assert!(session.illustration().templates.is_empty());
             assert_eq!(session.camera, turned);
         }
+    }
+
+    #[test]
+    fn a_newer_revision_of_a_subject_leaves_all_else() {
+        let mut session = session_of(&PEELED.replace("head", "torso"));
+        let revision = |session: &Session| match &session.illustration().subject {
+            SubjectRef::Builtin { revision, .. } => *revision,
+            _ => 0,
+        };
+        let before = session.illustration().clone();
+        assert_eq!(revision(&session), 1, "a document that names none");
+        let effects = session.run(Command::SetSubject(SubjectRef::newest("torso")), 0.0);
+        assert!(matches!(&effects[..], [Effect::LoadSubject(_)]));
+        let now = session.illustration();
+        assert_eq!(
+            (&now.templates, &now.captions),
+            (&before.templates, &before.captions)
+        );
+        assert_eq!((revision(&session), offers(&session)), (2, 0));
+        session.run(Command::Undo, 0.0);
+        assert_eq!(*session.illustration(), before, "one step");
     }
 
     #[test]

@@ -18,6 +18,8 @@ words! {
         link_is_long: "Some programs cut links as long as this: better save the document as a file", "Manche Programme kürzen so lange Links: besser das Dokument als Datei sichern", "Algunos programas cortan enlaces tan largos: mejor guardar el documento como archivo", "有些程序会截断这么长的链接：最好将文档存为文件";
         subject: "Subject", "Objekt", "Objeto", "对象";
         subject_hint: "What is shown", "Was gezeigt wird", "Lo que se muestra", "显示的内容";
+        newer_subject: "{0}, newer version", "{0}, neuere Fassung", "{0}, versión nueva", "{0}（新版）";
+        newer_subject_hint: "The same subject as it is drawn today. Templates, labels and steps stay.", "Dasselbe Objekt, wie es heute gezeichnet wird. Vorlagen, Beschriftungen und Schritte bleiben.", "El mismo objeto tal como se dibuja hoy. Las plantillas, las etiquetas y los pasos se conservan.", "同一对象的最新绘制版本。模板、标注和步骤保持不变。";
         open_file_more: "Open a file…", "Datei öffnen …", "Abrir un archivo…", "打开文件…";
         scan_from_address: "Scan from an address", "Scan von einer Adresse", "Estudio de una dirección", "来自网址的扫描";
         own_surface: "Your surface", "Eigene Oberfläche", "Superficie propia", "自己的表面";

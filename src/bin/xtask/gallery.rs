@@ -336,7 +336,7 @@ fn rounded<const N: usize>(numbers: [f32; N]) -> Value {
 fn made(name: &str, templates: &Value, camera: &Value) -> Result<Document, String> {
     let tree = json!({
         "fabrica": 1,
-        "subject": { "builtin": name },
+        "subject": { "builtin": name, "revision": subjects::newest_revision(name) },
         "templates": templates,
         "camera": camera,
     });

@@ -8,6 +8,7 @@ mod lights;
 mod poses;
 mod recipes;
 mod recording;
+mod revisions;
 mod styles;
 mod surfaces;
 mod sweeps;

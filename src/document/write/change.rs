@@ -414,7 +414,11 @@ fn is_same_file(root: &Value, subject: &SubjectRef) -> bool {
             .unwrap_or_default()
     };
     match subject {
-        SubjectRef::Builtin { .. } | SubjectRef::Clay(_) => false,
+        // Revisions of one subject have the same segments.
+        SubjectRef::Builtin { name, .. } => {
+            text("builtin") == name && pointer::get(root, "/subject/clay").is_none()
+        }
+        SubjectRef::Clay(_) => false,
         // Whatever else is said of them, they are other files.
         SubjectRef::Meshes { .. } => false,
         SubjectRef::Address { src, .. } => text("src") == src,

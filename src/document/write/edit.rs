@@ -185,7 +185,7 @@ pub enum Edit {
     SetCredit(String),
     /// Sets the language of the texts.
     SetLang(String),
-    /// Shows another subject. Segments and revision of the subject before it are removed.
+    /// Shows another subject, or another revision of the same. Segments of another subject are removed.
     SetSubject(SubjectRef),
     /// Puts a stroke of a clay before the one of that index (or last). Who shows some of the strokes goes on to show
     /// the same.

@@ -34,7 +34,9 @@ pub(super) fn about(common: &Common, opened: &Opened) -> Result<(), CliError> {
         text += &format!("title: {}\n", one_line(&illustration.title));
     }
     text += &match &illustration.subject {
-        SubjectRef::Builtin { name, .. } => format!("subject: built-in {}\n", one_line(name)),
+        SubjectRef::Builtin { name, revision } => {
+            format!("subject: {}\n", of_builtin(name, *revision))
+        }
         SubjectRef::Address { src, name, .. } => format!("subject: {}\n", of_file(src, name)),
         SubjectRef::Supplied { sha256, name, .. } => {
             format!("subject: {}\n", of_supplied(sha256, name))
@@ -78,6 +80,14 @@ fn of_either(src: Option<&str>, sha256: Option<&str>, name: &str) -> String {
     }
 }
 
+/// A built-in subject, with its revision if that is not the first.
+fn of_builtin(name: &str, revision: u32) -> String {
+    match revision {
+        0 | 1 => format!("built-in {}", one_line(&name)),
+        _ => format!("built-in {}, revision {revision}", one_line(&name)),
+    }
+}
+
 /// The part of a volume that a clay begins with.
 fn of_volume(volume: &ClayVolume) -> String {
     let part = match &volume.part {
@@ -85,7 +95,7 @@ fn of_volume(volume: &ClayVolume) -> String {
         VoxelPart::Iso(value) => format!("values from {value}"),
     };
     let of = match &volume.of {
-        VoxelSource::Builtin { name, .. } => format!("built-in {}", one_line(name)),
+        VoxelSource::Builtin { name, revision } => of_builtin(name, *revision),
         VoxelSource::File {
             src, sha256, name, ..
         } => of_either(src.as_deref(), sha256.as_deref(), name),
