@@ -121,6 +121,8 @@ impl App {
                     load.is_coarse = true;
                 }
             }
+            // Files go to whoever asked for them.
+            LoadEvent::Written(_) => {}
             LoadEvent::Frames { count } => {
                 if let Some(load) = &mut self.session.load {
                     load.frame_count = count;

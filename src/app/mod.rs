@@ -61,7 +61,8 @@ pub use self::canvas::vectors::escaped;
 pub use self::picture::host::gpu_of;
 #[cfg(feature = "app")]
 pub use self::services::{
-    Message, MissingDocument, SavedTo, Services, SetText, TextOver, TextToSet, WhyMissing,
+    MeshToSave, Message, MissingDocument, SavedTo, Services, SetText, TextOver, TextToSet,
+    WhyMissing,
 };
 pub use self::session::{
     ClayCommand, Command, GizmoMode, HandCommand, HeldTool, LinkChange, Pane, PicturePaper,

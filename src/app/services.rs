@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use crate::app::session::{LinkChange, SaveFile, Shipped, Ticket};
 use crate::app::words::{self, fill};
 use crate::assets::{BendAnswer, BendRequest, LoadEvent, SegmentationsExpected, Want};
+use crate::clay::MeshFormat;
 use crate::document::RawVoxels;
 use crate::load::FieldFile;
 
@@ -56,6 +57,10 @@ pub trait Services {
     fn cancel_load(&mut self, ticket: Ticket);
     /// Gives bytes to the user as a file; [`Message::Saved`] follows.
     fn save_file(&mut self, file: SaveFile);
+    /// Shapes a clay, unless that was done, and gives its mesh to the user as a file; [`Message::Saved`] follows.
+    fn save_mesh(&mut self, want: &Want, mesh: MeshToSave) {
+        _ = (want, mesh);
+    }
     /// Puts text on the clipboard; [`Message::Copied`] follows.
     fn copy_text(&mut self, text: String);
     /// Reads the clipboard; [`Message::Pasted`] follows.
@@ -221,6 +226,17 @@ pub enum Message {
         /// More, shown on demand; may be empty.
         details: String,
     },
+}
+
+/// A file that a clay is to become.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshToSave {
+    /// Its format.
+    pub format: MeshFormat,
+    /// What the picture is called; may be empty.
+    pub title: String,
+    /// Proposed file name with its ending.
+    pub name: String,
 }
 
 /// A text over the picture, for surroundings that show it as a text of their own.

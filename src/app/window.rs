@@ -19,7 +19,7 @@ use crate::app::panel::{
 };
 use crate::app::picture::host::Picture;
 use crate::app::picture::small::OpenPicture;
-use crate::app::services::{MissingDocument, Services};
+use crate::app::services::{MeshToSave, MissingDocument, Services};
 use crate::app::session::{
     Command, Effect, Focus, Gravity, Listing, STORED_DOCUMENT, STORED_HINT, STORED_LETTERING,
     STORED_PICTURE, STORED_SLOW, STORED_TITLE, Session, Sought, Ticket,
@@ -367,6 +367,16 @@ impl App {
                 Effect::GoOnBending => self.bending.go_on(),
                 Effect::OpenFile => services.open_file(),
                 Effect::Save(file) => services.save_file(file),
+                Effect::SaveMesh(format) => {
+                    let shown = self.session.shown();
+                    let want = self.assets.subject_want(&shown.subject_shown());
+                    let mesh = MeshToSave {
+                        format,
+                        title: shown.title.clone(),
+                        name: format!("{}.{}", self.session.file_stem(), format.extension()),
+                    };
+                    services.save_mesh(&want, mesh);
+                }
                 Effect::Copy(text) => services.copy_text(text),
                 Effect::CopyLink(tail) => {
                     let page = services.page_address();

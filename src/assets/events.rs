@@ -40,6 +40,8 @@ pub enum LoadEvent {
     Modality(String),
     /// The file does not say how its voxels lie. The load waits for the answer.
     AskRaw(RawQuestion),
+    /// The file that was asked for in place of the subject: the mesh of a clay.
+    Written(Vec<u8>),
     /// The subject is whole.
     Done {
         /// SHA-256 of the file's bytes, lower-case hex; `None` for a built-in subject.

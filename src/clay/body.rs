@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::shaping::Shaped;
+use super::write::{Export, Form, MeshFormat};
 use crate::data::{Corners, Mesh, MeshPart};
 
 /// The name of a clay's only segment.
@@ -13,6 +14,17 @@ impl Shaped {
     pub fn positions_mm(&self) -> Vec<Vec3> {
         let positions = self.positions.iter();
         positions.map(|pos| self.space.to_mm(*pos)).collect()
+    }
+
+    /// The mesh as the bytes of a file; `form` counts where the format has two.
+    pub fn file(&self, format: MeshFormat, form: Form, title: &str) -> Vec<u8> {
+        let export = Export {
+            positions_mm: &self.positions_mm(),
+            normals: &self.normals,
+            triangles: &self.triangles,
+            title,
+        };
+        export.file(format, form)
     }
 
     /// The mesh, with the normals that its strokes have carried.

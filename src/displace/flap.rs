@@ -21,7 +21,7 @@ fn opened(given: &Given, q: Vec3) -> Vec3 {
 pub(super) const FACTS: Facts = Facts {
     spec: TemplateSpec {
         name: "flap",
-        summary: "A door that opens about its x = 0, z = 1 edge",
+        summary: "A door that opens about its upper left edge",
         params: &[
             number("angle", "How far it is open, radians", FRAC_PI_2, 0.0, PI),
             number(

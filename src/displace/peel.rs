@@ -9,7 +9,7 @@ use std::f32::consts::{PI, TAU};
 pub(super) const FACTS: Facts = Facts {
     spec: TemplateSpec {
         name: "peel",
-        summary: "Roll a layer up from the x = 0 edge",
+        summary: "Roll a layer up from its left edge",
         params: &[
             number(
                 "progress",

@@ -300,7 +300,7 @@ impl Stock {
                 self.fail("The file does not say how its voxels lie".to_owned());
             }
             LoadEvent::Cancelled => self.fail("Loading was stopped".to_owned()),
-            LoadEvent::Frames { .. } | LoadEvent::Modality(_) => {}
+            LoadEvent::Frames { .. } | LoadEvent::Modality(_) | LoadEvent::Written(_) => {}
         }
     }
 

@@ -9,7 +9,7 @@ use super::loading::slabs_in_turn as slabs;
 use super::loading::{Post, PostingSink, hash_of};
 use super::loading::{is_mesh_file, read_scan};
 use crate::assets::{LoadEvent, Want};
-use crate::clay::{ClayError, MAX_FILE_TRIANGLES, Shaping};
+use crate::clay::{ClayError, Form, MAX_FILE_TRIANGLES, MeshFormat, Shaping};
 use crate::data::{
     DistanceGrid, Mesh, MeshGrids, SubjectPart, SubjectSink, Surface, SurfaceError, Volume,
     VolumeBuilder,
@@ -42,6 +42,17 @@ pub struct ClayDesk {
     meshes: MeshGrids,
     /// The clay of `last` after some of its strokes, the latest last.
     kept: Vec<Shaping>,
+    /// The next clay is wanted as a file.
+    writing: Option<Writing>,
+}
+
+/// A file that a clay is to become.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Writing {
+    /// Its format.
+    pub format: MeshFormat,
+    /// What the picture is called; may be empty.
+    pub title: String,
 }
 
 /// A file or a volume that was read, and the clay of it that no stroke has touched.
@@ -230,6 +241,25 @@ impl ClayDesk {
     fn sha256_of(&self, clay: &Clay) -> Option<String> {
         let start = self.start_of(clay)?;
         start.sha256.map(|hash| hex(&hash))
+    }
+
+    /// The next clay is wanted as a file, or with `None` as a subject, as always.
+    pub fn writes(&mut self, writing: Option<Writing>) {
+        self.writing = writing;
+    }
+
+    /// The bytes of the file that a clay becomes. `go_on` hears how far it is, 0 to 1, and stops it by `false`.
+    ///
+    /// # Errors
+    /// [`ClayError`].
+    pub fn file(
+        &mut self,
+        clay: &Arc<Clay>,
+        writing: &Writing,
+        go_on: &mut dyn FnMut(f32) -> bool,
+    ) -> Result<Vec<u8>, ClayError> {
+        let shaped = self.shape(clay, go_on)?.shaped();
+        Ok(shaped.file(writing.format, Form::Binary, &writing.title))
     }
 
     /// The clay as its recipe has it. `go_on` hears how far it is, 0 to 1, and stops it by `false`.
@@ -461,8 +491,29 @@ fn is_wanted(clay: &Arc<Clay>, sha256: Option<[u8; 32]>) -> bool {
     sha256.is_none_or(|hash| want.check(&hex(&hash)).is_ok())
 }
 
-/// Shapes a clay and posts it, what there is to say, and how it ended.
+/// Shapes a clay and posts its file, and how it ended.
+fn write_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, writing: &Writing, post: &mut dyn Post) {
+    let mut sink = PostingSink::of(post, "Shaping");
+    let event = match desk.file(clay, writing, &mut |part| sink.progress(part)) {
+        Ok(bytes) => {
+            post.post(LoadEvent::Written(bytes));
+            LoadEvent::Done { sha256: None }
+        }
+        Err(ClayError::Stopped) => LoadEvent::Cancelled,
+        Err(error) => LoadEvent::Failed {
+            message: error.to_string(),
+            details: String::new(),
+            fault: None,
+        },
+    };
+    post.post(event);
+}
+
+/// Shapes a clay and posts it, or its file if that is what is wanted next, what there is to say, and how it ended.
 pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
+    if let Some(writing) = desk.writing.take() {
+        return write_clay(desk, clay, &writing, post);
+    }
     let mut sink = PostingSink::of(post, "Shaping");
     let made = surface_of_clay(desk, clay, &mut |part| sink.progress(part));
     let event = match made {

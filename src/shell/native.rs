@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use super::bending::{Desk, make_figure};
-use super::clays::{ClayDesk, make_clay, make_clay_of_file};
+use super::clays::{ClayDesk, Writing, make_clay, make_clay_of_file};
 use super::command_line::ReadingFlags;
 use super::figures::read_file;
 use super::files::{Folder, Picked, local, mesh_set};
@@ -18,7 +18,9 @@ use super::loading::{
     make_subject, read_segments, resolutions, slabs_in_threads, take_segmentations, wanted_file,
 };
 use super::meshes::make_mesh;
-use crate::app::{App, LinkChange, Message, SaveFile, SavedTo, Services, Shipped, Start, Ticket};
+use crate::app::{
+    App, LinkChange, MeshToSave, Message, SaveFile, SavedTo, Services, Shipped, Start, Ticket,
+};
 use crate::assets::{
     BendAnswer, BendRequest, LoadEvent, Role, SegmentationsExpected, Source, Want,
 };
@@ -716,6 +718,40 @@ impl Services for NativeServices {
                 Some(chosen) => write_whole(chosen.path(), &file.bytes)
                     .map(|()| SavedTo::Path(chosen.path().to_owned()))
                     .map_err(|error| error.to_string()),
+            };
+            send(&sender, &ctx, Message::Saved(outcome));
+        });
+    }
+
+    fn save_mesh(&mut self, want: &Want, mesh: MeshToSave) {
+        let Some(clay) = want.clay().cloned() else {
+            return;
+        };
+        let dialog = rfd::AsyncFileDialog::new()
+            .set_file_name(&mesh.name)
+            .save_file();
+        let (sender, ctx, desk) = (
+            self.sender.clone(),
+            self.ctx.clone(),
+            Arc::clone(&self.clays),
+        );
+        let meshes = want.meshes.clone();
+        std::thread::spawn(move || {
+            let outcome = match pollster::block_on(dialog) {
+                None => Err(String::new()),
+                Some(chosen) => {
+                    let mut desk = desk.lock().unwrap_or_else(PoisonError::into_inner);
+                    desk.take_meshes(&meshes);
+                    let writing = Writing {
+                        format: mesh.format,
+                        title: mesh.title,
+                    };
+                    let bytes = desk.file(&clay, &writing, &mut |_| true);
+                    let saved = bytes.map_err(|error| error.to_string()).and_then(|bytes| {
+                        write_whole(chosen.path(), &bytes).map_err(|error| error.to_string())
+                    });
+                    saved.map(|()| SavedTo::Path(chosen.path().to_owned()))
+                }
             };
             send(&sender, &ctx, Message::Saved(outcome));
         });

@@ -11,6 +11,7 @@ use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storag
 use super::address::{
     absolute, address_task, at_base, builtin_task, fetched, file_task, foreign_host,
 };
+use super::clays::Writing;
 use super::loading::wanted_file;
 use super::texts::{self, Texts};
 use super::worker::answer::Answer;
@@ -18,8 +19,8 @@ use super::worker::fault::text_of;
 use super::worker::run::{self, BendWorker, WorkerLoad};
 use super::worker::task::{ClayTask, ScanTask, Task};
 use crate::app::{
-    LinkChange, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, SetText, Shipped, TextOver,
-    TextToSet, Ticket,
+    LinkChange, MeshToSave, Message, STORED_DOCUMENT, SaveFile, SavedTo, Services, SetText,
+    Shipped, TextOver, TextToSet, Ticket,
 };
 use crate::assets::{BendAnswer, BendRequest, LoadEvent, SegmentationsExpected, Source, Want};
 use crate::data::VolumeLimits;
@@ -45,6 +46,8 @@ pub(super) struct Page {
     pub limits: VolumeLimits,
     messages: Vec<Message>,
     load: Option<(Ticket, WorkerLoad)>,
+    /// A clay that becomes a file.
+    writing: Option<WorkerLoad>,
     next_ticket: u64,
     /// Bends the figure that is shown, once there is one.
     bender: Option<BendWorker>,
@@ -84,6 +87,7 @@ impl Page {
             },
             messages: Vec::new(),
             load: None,
+            writing: None,
             opening: None,
             n_reading: 0,
             next_ticket: 1,
@@ -171,6 +175,22 @@ impl PageServices {
                 on_answer(&Self(page), answer);
             }
         })
+    }
+
+    /// The task for a clay without a file, or for a file that the reader gave.
+    ///
+    /// # Errors
+    /// In words: which file is wanted.
+    fn task_without_address(&self, want: &Want) -> Result<Task, String> {
+        if let Some(clay) = want.clay().filter(|_| !want.has_file()) {
+            return Ok(Task::Clay(ClayTask::of(clay, want), None));
+        }
+        let page = self.0.borrow();
+        let hash = want.sha256().unwrap_or_default().to_lowercase();
+        let files = page.known.get(&hash).cloned();
+        let files = files.ok_or_else(|| wanted_file(want.name()))?;
+        let task = scan_task(files, want.reading.clone(), page.labels.clone());
+        Ok(file_task(want, task))
     }
 
     /// Gives the app an event of a load.
@@ -461,23 +481,15 @@ impl Services for PageServices {
                 self.start(ticket, &builtin_task((name, *revision), want));
                 return ticket;
             }
-            Source::Clay(clay) if !want.has_file() => {
-                let ticket = self.0.borrow_mut().new_ticket();
-                self.start(ticket, &Task::Clay(ClayTask::of(clay, want), None));
-                return ticket;
-            }
             Source::Clay(_) | Source::File { .. } => {}
         }
         let Some(src) = want.src() else {
-            let hash = want.sha256().unwrap_or_default().to_lowercase();
-            let known = self.0.borrow().known.get(&hash).cloned();
-            let Some(files) = known else {
-                return self.fail(wanted_file(want.name()));
+            let task = match self.task_without_address(want) {
+                Ok(task) => task,
+                Err(why) => return self.fail(why),
             };
             let ticket = self.0.borrow_mut().new_ticket();
-            let labels = self.0.borrow().labels.clone();
-            let task = scan_task(files, want.reading.clone(), labels);
-            self.start(ticket, &file_task(want, task));
+            self.start(ticket, &task);
             return ticket;
         };
         let base = self.0.borrow().place.base.clone();
@@ -661,6 +673,43 @@ impl Services for PageServices {
             .map(|()| SavedTo::Downloads(file.name))
             .map_err(|error| text_of(&error));
         self.0.borrow_mut().send(Message::Saved(outcome));
+    }
+
+    fn save_mesh(&mut self, want: &Want, mesh: MeshToSave) {
+        let task = match want.src() {
+            Some(src) => {
+                let base = self.0.borrow().place.base.clone();
+                absolute(src, &base).map(|address| address_task(address, &at_base(want, &base)))
+            }
+            None => self.task_without_address(want),
+        };
+        let mut task = match task {
+            Ok(task) => task,
+            Err(why) => return self.0.borrow_mut().send(Message::Saved(Err(why))),
+        };
+        if let Task::Clay(clay, _) = &mut task {
+            clay.writing = Some(Writing {
+                format: mesh.format,
+                title: mesh.title,
+            });
+        }
+        let (name, mime) = (mesh.name, mesh.format.mime());
+        let started = self.answered(&task, move |services, answer| match answer {
+            Answer::Event(LoadEvent::Written(bytes)) => {
+                let name = name.clone();
+                services.clone().save_file(SaveFile { name, mime, bytes });
+            }
+            Answer::Event(LoadEvent::Failed { message, .. }) => {
+                let mut page = services.0.borrow_mut();
+                page.send(Message::Saved(Err(message)));
+            }
+            _ => {}
+        });
+        let mut page = self.0.borrow_mut();
+        match started {
+            Ok(load) => page.writing = Some(load),
+            Err(error) => page.send(Message::Saved(Err(text_of(&error)))),
+        }
     }
 
     fn copy_text(&mut self, text: String) {

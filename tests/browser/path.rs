@@ -274,10 +274,8 @@ impl<'a> Author<'a> {
 }
 
 /// A folder into which the session's pages save, without asking.
-async fn downloads(session: &Session, with: With) -> PathBuf {
-    let folder = root()
-        .join("target/e2e")
-        .join(format!("saved_{}", with.name()));
+pub(super) async fn downloads(session: &Session, name: &str) -> PathBuf {
+    let folder = root().join("target/e2e").join(format!("saved_{name}"));
     let _nothing_there = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).expect("a folder for what is saved");
     let mut params = SetDownloadBehaviorParams::new(SetDownloadBehaviorBehavior::Allow);
@@ -294,7 +292,7 @@ async fn downloads(session: &Session, with: With) -> PathBuf {
 /// The whole path.
 async fn walk(session: &Session, scan: &Path, with: With) {
     session.allow_clipboard().await;
-    let folder = downloads(session, with).await;
+    let folder = downloads(session, with.name()).await;
     let start = Instant::now();
     let tab = session
         .coarse_viewer(&format!("#{}", payload(PLAIN)), with.size())

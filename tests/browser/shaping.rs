@@ -1,9 +1,16 @@
 //! A clay is shaped and a sweep drawn by hand in a real browser, and handed on as a link.
 
-use super::hand::{changed, click, document, drop_files, find, focus, mark, press, press_with};
+use super::hand::{
+    changed, click, document, drop_files, find, focus, hear, mark, press, press_with,
+};
 use super::harness::{Tab, with_browser};
 use super::parts::{count, small_scan};
+use super::path::downloads;
 use super::*;
+use fabrica::clay::MeshFormat;
+use fabrica::document::{Document, SubjectRef};
+use fabrica::shell::clays::{ClayDesk, Writing};
+use std::path::Path;
 
 const CLAY: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05 } } }"#;
 const SIZE: (u32, u32) = (800, 760);
@@ -17,6 +24,33 @@ async fn stroke(tab: &Tab, from: (f64, f64), by: (f64, f64)) -> serde_json::Valu
     let subject = changed(tab, "subject").await;
     tab.settled().await;
     subject["clay"]["strokes"].clone()
+}
+
+/// The file that the native program makes of a document's clay.
+fn natively(document: &serde_json::Value, format: MeshFormat) -> Vec<u8> {
+    let document = Document::from_value(document.clone()).expect("a document");
+    let SubjectRef::Clay(clay) = document.illustration().subject_shown() else {
+        panic!("a clay");
+    };
+    let title = document.illustration().title.clone();
+    let writing = Writing { format, title };
+    let made = ClayDesk::default().file(&clay, &writing, &mut |_| true);
+    made.expect("a shaped clay")
+}
+
+/// The bytes of the only file that ends so, once it is whole.
+async fn saved_in(folder: &Path, end: &str) -> Vec<u8> {
+    for _ in 0..100 {
+        let files = std::fs::read_dir(folder).expect("the folder").flatten();
+        let mut ends = files
+            .map(|file| file.path())
+            .filter(|path| path.extension().is_some_and(|e| e == end));
+        if let Some(path) = ends.next() {
+            return std::fs::read(path).expect("the file");
+        }
+        tokio::time::sleep(std::time::Duration::from_millis(100)).await;
+    }
+    panic!("no file that ends in {end} was saved");
 }
 
 #[test]
@@ -44,6 +78,16 @@ fn a_clay_is_shaped_by_hand_and_handed_on() {
         let shaped = object_part(&tab.picture("clay_with_ears").await);
         let grown = difference(&ball, &shaped, WHITE);
         assert!(grown.mean > 0.5, "the ears are seen: {grown:?}");
+        // As a file it is the native program's, bit for bit.
+        let folder = downloads(session, "clay").await;
+        for format in [MeshFormat::Stl, MeshFormat::Glb] {
+            let end = format.extension();
+            click(&tab, "More").await;
+            click(&tab, &format!("Save mesh as {}", end.to_uppercase())).await;
+            hear(&tab, &format!("fabrica.{end} is in this browser")).await;
+            let saved = saved_in(&folder, end).await;
+            assert!(saved == natively(&document(&tab).await, format), "{end}");
+        }
         assert_eq!(
             count(&session.server, "fabrica_clay_bg.wasm"),
             1,

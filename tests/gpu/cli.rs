@@ -417,6 +417,15 @@ fn a_clay_is_written_read_again_and_checked() {
         let triangles = format!("triangles: {}", whole["triangles"]);
         assert!(info.contains(&triangles), "{end}: {info}");
     }
+    for (end, begins) in [("stl", "solid "), ("ply", "ply\nformat ascii")] {
+        let mesh = folder.path().join(format!("text.{end}"));
+        fabrica(&["clay", path, "-o", text(&mesh), "--text"]).ok();
+        let written = std::fs::read_to_string(&mesh).expect("a text");
+        assert!(written.starts_with(begins), "{end}");
+        let info = fabrica(&["info", text(&mesh)]).ok().out;
+        let triangles = format!("triangles: {}", whole["triangles"]);
+        assert!(info.contains(&triangles), "{end}: {info}");
+    }
     let picture = folder.path().join("horn.png");
     let args = ["render", path, "-o", text(&picture), "--size", "64x48"];
     assert!(fabrica(&args).ok().err.contains("stroke 2 is left out"));

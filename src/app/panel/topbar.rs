@@ -9,6 +9,7 @@ use crate::app::kit::widget::{self, Named as _};
 use crate::app::session::{ClayCommand, Command, LibraryCommand, Session};
 use crate::app::words::bar::w;
 use crate::app::words::{self, Lang, facts, fill, names};
+use crate::clay::MeshFormat;
 use crate::document::{ClayShape, ClayStart, SubjectRef, newest_revision};
 
 /// Width of the bar in points from which on the examples have a button in it; else they are in the menu.
@@ -196,6 +197,12 @@ fn more_menu(
         let share = words::share::w().share;
         item(ui, Icon::Link, share, Command::ToggleShare);
         item(ui, Icon::Download, w().save_document, Command::SaveDocument);
+        let formats = MeshFormat::ALL.into_iter();
+        for format in formats.filter(|_| session.has_mesh_to_save()) {
+            let end = format.extension().to_uppercase();
+            let text = fill(w().save_mesh, &[&end]);
+            item(ui, Icon::Download, &text, Command::SaveMesh(format));
+        }
         item(ui, Icon::Picture, w().save_picture, Command::SavePicture);
         ui.separator();
         item(ui, Icon::Eye, w().picture_alone, Command::TogglePanels);

@@ -15,6 +15,7 @@ use super::sought::Sought;
 use super::tissues::TissueCommand;
 use super::view::See;
 use crate::app::words::Lang;
+use crate::clay::MeshFormat;
 use crate::data::Site;
 use crate::describe::Snippet;
 use crate::document::{Camera, Edit, Plane, SubjectRef, TemplateKind};
@@ -163,6 +164,8 @@ pub enum Command {
     CopyLink,
     /// Saves the document as a file.
     SaveDocument,
+    /// Saves the clay that is shown as a mesh file.
+    SaveMesh(MeshFormat),
     /// Saved pictures get so many pixels along their longer side from now on; `None`: as many as suit the window.
     SetPictureSize(Option<u32>),
     /// Saved pictures say from now on that they are printed with so many dots per inch.

@@ -4,6 +4,7 @@ use super::library::{RecentChange, Shipped};
 use super::question::Question;
 use super::sought::Sought;
 use super::ticket::Ticket;
+use crate::clay::MeshFormat;
 use crate::describe::Snippet;
 use crate::document::{RawVoxels, SubjectRef};
 
@@ -69,6 +70,8 @@ pub enum Effect {
     OpenFile,
     /// Give bytes to the user as a file.
     Save(SaveFile),
+    /// Give the clay that is shown to the user as a file of this format.
+    SaveMesh(MeshFormat),
     /// Draw the picture once more for a file.
     SavePicture,
     /// Stop making the picture for a file.

@@ -7,6 +7,7 @@ use super::session::{STORED_DOCUMENT, Session, payload_of};
 use crate::app::words::{fill, lang, messages, share};
 use crate::assets::{Want, Wanted};
 use crate::describe::{Snippet, snippet};
+use crate::document::SubjectRef;
 use crate::link::ADVISED_LENGTH;
 
 /// Seconds of rest before the link in the address bar is renewed.
@@ -113,6 +114,11 @@ impl Session {
             bytes: self.document_as_seen().to_json().into_bytes(),
         };
         self.effect(Effect::Save(file));
+    }
+
+    /// True if a clay is shown whole, which can be saved as a mesh.
+    pub fn has_mesh_to_save(&self) -> bool {
+        matches!(self.shown().subject, SubjectRef::Clay(_)) && self.load.is_none()
     }
 
     /// File name without an ending, out of the title.

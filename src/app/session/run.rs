@@ -155,11 +155,17 @@ impl Session {
             Command::KeepTemplates => self.keep_templates(),
             Command::Open => self.effect(Effect::OpenFile),
             Command::New => {
+                self.keep_work();
                 self.start_document(Document::new(), "New document".to_owned());
                 self.load_subject();
             }
             Command::CopyLink => self.copy_link(),
             Command::SaveDocument => self.save_document(),
+            Command::SaveMesh(format) => {
+                if self.has_mesh_to_save() {
+                    self.effect(Effect::SaveMesh(format));
+                }
+            }
             Command::SetPictureSize(longer_px) => self.picture_px = longer_px,
             Command::SetPictureDpi(dpi) => self.picture_dpi = dpi,
             Command::SetPicturePaper(paper) => self.picture_paper = paper,

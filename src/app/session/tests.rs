@@ -7,7 +7,9 @@ use super::{
     Command, Effect, Focus, Found, Gravity, LinkChange, Place, Question, RawCommand, See, Session,
     Tab, Ticket, TissueCommand, Tool,
 };
+use crate::app::session::RecentChange;
 use crate::assets::RawQuestion;
+use crate::clay::MeshFormat;
 use crate::document::{Document, Edit, SubjectRef, TemplateKind};
 
 /// A document with two templates, one of a group, and a lesson of two steps.
@@ -496,6 +498,46 @@ fn a_saved_document_is_named_for_its_title() {
     );
     let text = std::str::from_utf8(&file.bytes).expect("text");
     assert!(Document::from_json(text).is_ok());
+}
+
+#[test]
+fn a_clay_is_saved_as_a_mesh_and_nothing_else_is() {
+    let mut session = Session::new(Document::new());
+    let save = Command::SaveMesh(MeshFormat::Stl);
+    assert!(run(&mut session, save.clone()).is_empty(), "a head");
+    let clay = r#"{ "fabrica": 1, "subject": { "clay": {} } }"#;
+    session.open_document(Document::from_json(clay).expect("a document"), 0);
+    let load = session.take_effects();
+    assert!(
+        load.iter()
+            .any(|effect| matches!(effect, Effect::LoadSubject(_))),
+        "{load:?}"
+    );
+    session.load_started(Ticket(3));
+    assert!(
+        run(&mut session, save.clone()).is_empty(),
+        "not before it is there"
+    );
+    session.load_done(None);
+    let effects = run(&mut session, save);
+    assert!(
+        matches!(&effects[..], [Effect::SaveMesh(MeshFormat::Stl)]),
+        "{effects:?}"
+    );
+}
+
+#[test]
+fn what_a_new_document_replaces_is_kept_among_the_recent() {
+    let mut session = lesson();
+    let title = Edit::SetTitle("Mine".to_owned());
+    run(&mut session, Command::Apply(title));
+    let effects = run(&mut session, Command::New);
+    assert!(
+        effects
+            .iter()
+            .any(|effect| matches!(effect, Effect::Recent(RecentChange::Add(_)))),
+        "{effects:?}"
+    );
 }
 
 // ---------------------------------------------------------------------------------------- opening

@@ -31,6 +31,7 @@ words! {
         more: "More", "Mehr", "Más", "更多";
         new_document: "New document", "Neues Dokument", "Documento nuevo", "新建文档";
         save_document: "Save document", "Dokument sichern", "Guardar documento", "保存文档";
+        save_mesh: "Save mesh as {0}", "Netz als {0} sichern", "Guardar malla como {0}", "网格存为 {0}";
         save_picture: "Save picture", "Bild sichern", "Guardar imagen", "保存图片";
         picture_alone: "Present", "Präsentieren", "Presentar", "演示";
         theme_light: "Light colours", "Helle Farben", "Colores claros", "浅色界面";

@@ -14,6 +14,7 @@
 
 mod export;
 mod files;
+mod format;
 mod glb;
 mod obj;
 mod ply;
@@ -23,3 +24,4 @@ mod testing;
 mod title;
 
 pub use export::{Export, Form};
+pub use format::MeshFormat;

@@ -142,6 +142,9 @@ pub(super) enum Command {
             conflicts_with = "check"
         )]
         output: Option<PathBuf>,
+        /// Writes a .stl or a .ply as text, to be looked at.
+        #[arg(long, requires = "output")]
+        text: bool,
         /// Prints what the mesh is like: whether it is closed, its edges, angles, triangles that intersect, its hash.
         #[arg(long)]
         check: bool,

@@ -10,54 +10,26 @@ use super::progress::Progress;
 use super::stop;
 use super::subject::begun;
 use crate::assets::Want;
-use crate::clay::{Check, ClayError, Export, Form, Shaping, mesh_sha256};
+use crate::clay::{Check, ClayError, Form, MeshFormat, Shaping, mesh_sha256};
 use crate::document::Clay;
-
-/// The formats that are written, by the ends of file names.
-#[derive(Clone, Copy)]
-enum Format {
-    Ply,
-    Obj,
-    Stl,
-    Glb,
-}
 
 /// Writes the clay of a document after its first strokes.
 pub(super) fn write_clay(
     common: &Common,
     opened: &Opened,
-    output: &Path,
+    (output, is_text): (&Path, bool),
     strokes: Option<u32>,
     moment: Moment,
 ) -> Result<(), CliError> {
     let end = output.extension().unwrap_or_default().to_string_lossy();
-    let format = match end.to_lowercase().as_str() {
-        "ply" => Format::Ply,
-        "obj" => Format::Obj,
-        "stl" => Format::Stl,
-        "glb" => Format::Glb,
-        _ => {
-            return Err(CliError::Usage(
-                "name a file that ends in .ply, .obj, .stl or .glb",
-            ));
-        }
-    };
+    let format = MeshFormat::of_extension(&end).ok_or(CliError::Usage(
+        "name a file that ends in .ply, .obj, .stl or .glb",
+    ))?;
     let (want, title) = clay_of(common, opened, strokes, moment)?;
     let given = (common, opened.folder.as_path());
     let shaped = shape(&want, given, Some(output), |_, shaping| shaping.shaped())?;
-    let export = Export {
-        positions_mm: &shaped.positions_mm(),
-        normals: &shaped.normals,
-        triangles: &shaped.triangles,
-        title: &title,
-    };
-    let bytes = match format {
-        Format::Ply => export.ply(Form::Binary),
-        Format::Obj => export.obj(),
-        Format::Stl => export.stl(Form::Binary),
-        Format::Glb => export.glb(),
-    };
-    write_whole(output, &bytes)
+    let form = if is_text { Form::Text } else { Form::Binary };
+    write_whole(output, &shaped.file(format, form, &title))
 }
 
 /// Prints what the mesh of a clay is like after its first strokes.

@@ -142,6 +142,7 @@ fn execute(args: Args) -> Result<(), CliError> {
         Command::Clay {
             doc,
             output,
+            text,
             check: _,
             json,
             strokes,
@@ -149,7 +150,7 @@ fn execute(args: Args) -> Result<(), CliError> {
         } => {
             let opened = open(&doc)?;
             match &output {
-                Some(output) => write_clay(common, &opened, output, strokes, moment),
+                Some(output) => write_clay(common, &opened, (output, text), strokes, moment),
                 None => check_clay(common, &opened, strokes, moment, json),
             }
         }

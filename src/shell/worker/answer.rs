@@ -5,7 +5,7 @@
 //! answer before. The others are the events of a load: [`pieces`] of the subject, such as `["begin", header as JSON]`
 //! and `["scalars", typed array]`, `["surface-array", index, array]` for each array of a surface and then
 //! `["surface"]`, `["progress", fraction, what]`, `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`,
-//! `["label-file", sha256, header as JSON, Uint8Array]`, `["frames", count]`, `["raw", bytes or undefined, is packed,
+//! `["label-file", sha256, header as JSON, Uint8Array]`, `["frames", count]`, `["written", Uint8Array]`, `["raw", bytes or undefined, is packed,
 //! guess or undefined]`, `["failed", message, details]`, where the owner of the file can mend it followed by the kind
 //! of fault, the name of the file, bytes found, bytes expected and the file that is missing; `["cancelled"]`.
 
@@ -311,6 +311,12 @@ pub mod post {
                     .into(),
                 );
             }
+            LoadEvent::Written(bytes) => {
+                push(&"written".into());
+                let array = Uint8Array::from(bytes.as_slice());
+                moved = Some(array.buffer());
+                push(&array);
+            }
             LoadEvent::Done { sha256 } => {
                 push(&"done".into());
                 push(&sha256.into());
@@ -385,6 +391,7 @@ fn event_of(message: &Array) -> Option<LoadEvent> {
             is_packed: message.get(2).is_truthy(),
             guess: reading_of(&text(3)).raw,
         }),
+        "written" => LoadEvent::Written(message.get(1).dyn_into::<Uint8Array>().ok()?.to_vec()),
         "done" => LoadEvent::Done {
             sha256: message.get(1).as_string(),
         },

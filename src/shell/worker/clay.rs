@@ -14,10 +14,13 @@ use super::other;
 use super::pieces::{unpacked, unpacked_grids};
 use super::task::{Part, ScanTask, text_of_reading};
 use crate::assets::LoadEvent;
+use crate::clay::MeshFormat;
 use crate::data::{SubjectSink as _, VolumeBuilder};
 use crate::document::{Clay, ClayVolume, VoxelSource, clay_from_text};
 use crate::load::mesh_among;
-use crate::shell::clays::{ClayDesk, make_clay, make_clay_of_file, make_clay_of_volume, whole};
+use crate::shell::clays::{
+    ClayDesk, Writing, make_clay, make_clay_of_file, make_clay_of_volume, whole,
+};
 
 thread_local! {
     /// What the last clay's strokes left: a worker rests between strokes.
@@ -40,7 +43,13 @@ pub async fn run(message: JsValue, load: Function) -> Result<(), JsValue> {
     let clay = clay_from_text(&text.as_string().unwrap_or_default());
     let clay = Arc::new(clay.map_err(|error| JsValue::from(error.to_string()))?);
     let meshes = unpacked_grids(&Reflect::get(&message, &"meshes".into())?);
-    DESK.with_borrow_mut(|desk| desk.take_meshes(&meshes));
+    let word = |key: &str| Reflect::get(&message, &key.into()).map(|word| word.as_string());
+    let format = word("format")?.and_then(|end| MeshFormat::of_extension(&end));
+    let title = word("title")?.unwrap_or_default();
+    DESK.with_borrow_mut(|desk| {
+        desk.take_meshes(&meshes);
+        desk.writes(format.map(|format| Writing { format, title }));
+    });
     let mut post = |event: LoadEvent| post::event(event).is_ok();
     if clay.file().is_none() {
         DESK.with_borrow_mut(|desk| make_clay(desk, &clay, &mut post));

@@ -6,7 +6,7 @@
 //!   `address`, or `field` (a pair), with `reading` (JSON), `are_segments` (of an address), `labels` (SHA-256 of label
 //!   volumes), `has_scan` and `may_be_field`,
 //! - for the shaper of clays `clay` (a text) and `meshes` (grids of its tools), with `address` or `files` where it
-//!   begins with a file,
+//!   begins with a file, `format` (the end of a file's name) and `title` where it is to become a file,
 //! - for the bender of figures `figure` (a text), `bender` (a number: each has one plate), `rounds`, and `plate` where
 //!   it is to be another one from now on.
 
@@ -27,6 +27,7 @@ use crate::document::{
 };
 use crate::figure::is_figure_name;
 use crate::load::{are_mesh_names, is_mesh_name};
+use crate::shell::clays::Writing;
 use crate::subjects::mesh_names;
 
 /// A program that runs in a worker.
@@ -112,6 +113,8 @@ pub struct ClayTask {
     pub recipe: String,
     /// The grids of its tools that are meshes, by the keys of their files.
     pub meshes: MeshGrids,
+    /// The file that it is to become; `None`: the subject.
+    pub writing: Option<Writing>,
 }
 
 impl ClayTask {
@@ -120,6 +123,7 @@ impl ClayTask {
         Self {
             recipe: clay_to_text(clay),
             meshes: want.meshes.clone(),
+            writing: None,
         }
     }
 }
@@ -225,6 +229,10 @@ impl Task {
             Self::Clay(clay, file) => {
                 set("clay", &clay.recipe.as_str().into())?;
                 set("meshes", &pieces::packed_grids(&clay.meshes))?;
+                if let Some(writing) = &clay.writing {
+                    set("format", &writing.format.extension().into())?;
+                    set("title", &writing.title.as_str().into())?;
+                }
                 if let Some(file) = file {
                     file.put_into(&message)?;
                 }
