@@ -79,7 +79,7 @@ fn a_clay_is_shaped_by_hand_and_handed_on() {
         let grown = difference(&ball, &shaped, WHITE);
         assert!(grown.mean > 0.5, "the ears are seen: {grown:?}");
         // As a file it is the native program's, bit for bit.
-        let folder = downloads(session, "clay").await;
+        let folder = downloads(&session, "clay").await;
         for format in [MeshFormat::Stl, MeshFormat::Glb] {
             let end = format.extension();
             click(&tab, "More").await;
