@@ -231,7 +231,7 @@ pub enum Message {
 /// A file that a clay is to become.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshToSave {
-    /// Its format.
+    /// What programs are to read.
     pub format: MeshFormat,
     /// What the picture is called; may be empty.
     pub title: String,

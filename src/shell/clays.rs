@@ -49,7 +49,7 @@ pub struct ClayDesk {
 /// A file that a clay is to become.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Writing {
-    /// Its format.
+    /// What programs are to read.
     pub format: MeshFormat,
     /// What the picture is called; may be empty.
     pub title: String,

@@ -38,8 +38,8 @@ pub fn resolutions(limits: VolumeLimits) -> [u32; 2] {
     [COARSE_RESOLUTION, FINE_RESOLUTION.min(limits.max_dim)]
 }
 
-/// Makes a revision of a built-in subject with each of these resolutions in turn, voxels along its longest side. `slabs`
-/// makes the slabs of a generator that lie in the given ranges, in order; it may use threads.
+/// Makes a revision of a built-in subject with each of these resolutions in turn, voxels along its longest side.
+/// `slabs` makes the slabs of a generator that lie in the given ranges, in order; it may use threads.
 pub fn make_subject(
     (name, revision): (&str, u32),
     resolutions: &[u32],

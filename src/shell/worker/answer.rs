@@ -5,9 +5,10 @@
 //! answer before. The others are the events of a load: [`pieces`] of the subject, such as `["begin", header as JSON]`
 //! and `["scalars", typed array]`, `["surface-array", index, array]` for each array of a surface and then
 //! `["surface"]`, `["progress", fraction, what]`, `["coarse"]`, `["done", sha256 or null]`, `["notice", text]`,
-//! `["label-file", sha256, header as JSON, Uint8Array]`, `["frames", count]`, `["written", Uint8Array]`, `["raw", bytes or undefined, is packed,
-//! guess or undefined]`, `["failed", message, details]`, where the owner of the file can mend it followed by the kind
-//! of fault, the name of the file, bytes found, bytes expected and the file that is missing; `["cancelled"]`.
+//! `["label-file", sha256, header as JSON, Uint8Array]`, `["frames", count]`, `["written", Uint8Array]`,
+//! `["raw", bytes or undefined, is packed, guess or undefined]`, `["failed", message, details]`, where the owner of the
+//! file can mend it followed by the kind of fault, the name of the file, bytes found, bytes expected and the file that
+//! is missing; `["cancelled"]`.
 
 use std::sync::Arc;
 
