@@ -1,6 +1,7 @@
 //! Every table has every text in every language, with the same gaps.
 
 use super::*;
+use crate::document::TemplateKind;
 
 type Line = (&'static str, [&'static str; Lang::COUNT]);
 
@@ -139,6 +140,7 @@ fn words_that_nobody_could_guess_do_not_come_back() {
         "Let it act earlier",
         "closed in",
         "brings no tissues",
+        "x = 0",
         "Lässt unberührt",
         "Weicht aus",
         "Kürzere Wege",
@@ -181,5 +183,10 @@ fn words_that_nobody_could_guess_do_not_come_back() {
                 .find(|gone| text.to_lowercase().contains(&gone.to_lowercase()));
             assert_eq!(gone, None, "{key}: {text}");
         }
+    }
+    // Those of the program's own commands and of the reference too.
+    for kind in TemplateKind::ALL {
+        let summary = kind.spec().summary;
+        assert!(!summary.contains(" = "), "{kind:?}: {summary}");
     }
 }
