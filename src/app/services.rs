@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::app::session::{LinkChange, SaveFile, Shipped, Ticket};
 use crate::app::words::{self, fill};
 use crate::assets::{BendAnswer, BendRequest, LoadEvent, SegmentationsExpected, Want};
-use crate::clay::MeshFormat;
+use crate::clay::Writing;
 use crate::document::RawVoxels;
 use crate::load::FieldFile;
 
@@ -228,13 +228,11 @@ pub enum Message {
     },
 }
 
-/// A file that a clay is to become.
+/// A file that a clay is to become, and that the user is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshToSave {
-    /// What programs are to read.
-    pub format: MeshFormat,
-    /// What the picture is called; may be empty.
-    pub title: String,
+    /// What is written.
+    pub writing: Writing,
     /// Proposed file name with its ending.
     pub name: String,
 }

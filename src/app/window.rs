@@ -26,6 +26,7 @@ use crate::app::session::{
 };
 use crate::app::words::{self, Lang};
 use crate::assets::{Assets, Bending, SegmentationsExpected, TissueWork, Want};
+use crate::clay::Writing;
 use crate::data::{Resources, Site, SubjectBuilder, Surface};
 use crate::document::{Document, SegmentsRef};
 use crate::load::LabelFile;
@@ -370,9 +371,9 @@ impl App {
                 Effect::SaveMesh(format) => {
                     let shown = self.session.shown();
                     let want = self.assets.subject_want(&shown.subject_shown());
+                    let title = shown.title.clone();
                     let mesh = MeshToSave {
-                        format,
-                        title: shown.title.clone(),
+                        writing: Writing { format, title },
                         name: format!("{}.{}", self.session.file_stem(), format.extension()),
                     };
                     services.save_mesh(&want, mesh);

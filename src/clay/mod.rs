@@ -31,7 +31,7 @@ pub use refine::{MAX_TRIANGLES, Work};
 pub use shaping::{Shaped, Shaping};
 pub use space::Space;
 pub use way::Way;
-pub use write::{Export, Form, MeshFormat};
+pub use write::{Export, Form, MeshFormat, Writing};
 
 #[cfg(test)]
 mod suite;

@@ -21,7 +21,7 @@ pub(super) fn foreign_host(address: &str) -> Option<String> {
 /// from. None if the reader is to be asked first.
 pub(super) fn part_of(document: &Document, base: &str) -> Option<Part> {
     match &document.illustration().subject {
-        SubjectRef::Builtin { name, revision } => Some(Task::subject(name, *revision).part()),
+        SubjectRef::Builtin { name, revision } => Some(Task::subject(name, *revision, None).part()),
         SubjectRef::Clay(clay) if clay.file().is_none() => Some(Part::Clay),
         subject => {
             let address = absolute(subject.src()?, base).ok()?;
@@ -68,7 +68,7 @@ pub(super) fn at_base(want: &Want, base: &str) -> Want {
 pub(super) fn builtin_task((name, revision): (&str, u32), want: &Want) -> Task {
     match want.role {
         Role::Object => Task::Scan(ScanTask::Mesh(name.to_owned(), want.reading.carves)),
-        _ => Task::subject(name, revision),
+        _ => Task::subject(name, revision, None),
     }
 }
 

@@ -9,7 +9,7 @@ use super::loading::slabs_in_turn as slabs;
 use super::loading::{Post, PostingSink, hash_of};
 use super::loading::{is_mesh_file, read_scan};
 use crate::assets::{LoadEvent, Want};
-use crate::clay::{ClayError, Form, MAX_FILE_TRIANGLES, MeshFormat, Shaping};
+use crate::clay::{ClayError, Form, MAX_FILE_TRIANGLES, Shaping, Writing};
 use crate::data::{
     DistanceGrid, Mesh, MeshGrids, SubjectPart, SubjectSink, Surface, SurfaceError, Volume,
     VolumeBuilder,
@@ -44,15 +44,6 @@ pub struct ClayDesk {
     kept: Vec<Shaping>,
     /// The next clay is wanted as a file.
     writing: Option<Writing>,
-}
-
-/// A file that a clay is to become.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Writing {
-    /// What programs are to read.
-    pub format: MeshFormat,
-    /// What the picture is called; may be empty.
-    pub title: String,
 }
 
 /// A file or a volume that was read, and the clay of it that no stroke has touched.
@@ -491,53 +482,50 @@ fn is_wanted(clay: &Arc<Clay>, sha256: Option<[u8; 32]>) -> bool {
     sha256.is_none_or(|hash| want.check(&hex(&hash)).is_ok())
 }
 
-/// Shapes a clay and posts its file, and how it ended.
-fn write_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, writing: &Writing, post: &mut dyn Post) {
-    let mut sink = PostingSink::of(post, "Shaping");
-    let event = match desk.file(clay, writing, &mut |part| sink.progress(part)) {
-        Ok(bytes) => {
-            post.post(LoadEvent::Written(bytes));
-            LoadEvent::Done { sha256: None }
-        }
-        Err(ClayError::Stopped) => LoadEvent::Cancelled,
-        Err(error) => LoadEvent::Failed {
-            message: error.to_string(),
-            details: String::new(),
-            fault: None,
-        },
-    };
-    post.post(event);
-}
-
 /// Shapes a clay and posts it, or its file if that is what is wanted next, what there is to say, and how it ended.
 pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
-    if let Some(writing) = desk.writing.take() {
-        return write_clay(desk, clay, &writing, post);
-    }
-    let mut sink = PostingSink::of(post, "Shaping");
-    let made = surface_of_clay(desk, clay, &mut |part| sink.progress(part));
-    let event = match made {
-        Ok((surface, notices)) => {
-            let is_taken = sink.take(SubjectPart::Surface(surface)).is_ok();
-            if !is_taken {
-                post.post(LoadEvent::Cancelled);
-                return;
-            }
-            for notice in notices {
-                post.post(LoadEvent::Notice(notice));
-            }
-            LoadEvent::Done {
-                sha256: desk.sha256_of(clay),
-            }
-        }
+    let made = match desk.writing.take() {
+        Some(writing) => post_file(desk, clay, &writing, post),
+        None => post_surface(desk, clay, post),
+    };
+    post.post(match made {
+        Ok(sha256) => LoadEvent::Done { sha256 },
         Err(ClayError::Stopped) => LoadEvent::Cancelled,
         Err(error) => LoadEvent::Failed {
             message: error.to_string(),
             details: String::new(),
             fault: None,
         },
-    };
-    post.post(event);
+    });
+}
+
+/// Posts the file of a clay. Gives no hash, since no file is shown anew.
+fn post_file(
+    desk: &mut ClayDesk,
+    clay: &Arc<Clay>,
+    writing: &Writing,
+    post: &mut dyn Post,
+) -> Result<Option<String>, ClayError> {
+    let mut sink = PostingSink::of(post, "Shaping");
+    let bytes = desk.file(clay, writing, &mut |part| sink.progress(part))?;
+    post.post(LoadEvent::Written(bytes));
+    Ok(None)
+}
+
+/// Posts a clay and what there is to say. Gives the hash of the file that it begins with.
+fn post_surface(
+    desk: &mut ClayDesk,
+    clay: &Arc<Clay>,
+    post: &mut dyn Post,
+) -> Result<Option<String>, ClayError> {
+    let mut sink = PostingSink::of(post, "Shaping");
+    let (surface, notices) = surface_of_clay(desk, clay, &mut |part| sink.progress(part))?;
+    let taken = sink.take(SubjectPart::Surface(surface));
+    taken.map_err(|_nobody_wants_it| ClayError::Stopped)?;
+    for notice in notices {
+        post.post(LoadEvent::Notice(notice));
+    }
+    Ok(desk.sha256_of(clay))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use super::bending::{Desk, make_figure};
-use super::clays::{ClayDesk, Writing, make_clay, make_clay_of_file};
+use super::clays::{ClayDesk, make_clay, make_clay_of_file};
 use super::command_line::ReadingFlags;
 use super::figures::read_file;
 use super::files::{Folder, Picked, local, mesh_set};
@@ -742,11 +742,7 @@ impl Services for NativeServices {
                 Some(chosen) => {
                     let mut desk = desk.lock().unwrap_or_else(PoisonError::into_inner);
                     desk.take_meshes(&meshes);
-                    let writing = Writing {
-                        format: mesh.format,
-                        title: mesh.title,
-                    };
-                    let bytes = desk.file(&clay, &writing, &mut |_| true);
+                    let bytes = desk.file(&clay, &mesh.writing, &mut |_| true);
                     let saved = bytes.map_err(|error| error.to_string()).and_then(|bytes| {
                         write_whole(chosen.path(), &bytes).map_err(|error| error.to_string())
                     });

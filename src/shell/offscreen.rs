@@ -66,7 +66,7 @@ pub async fn render_png(
     let studio = match held.filter(|(made, _)| *made == wanted) {
         Some((_, studio)) => studio,
         None => {
-            let subject = made(subject_task((name, *revision), resolution)).await?;
+            let subject = made(Task::subject(name, *revision, Some(resolution))).await?;
             let studio = Studio::new(&gpu, &subject, true).map_err(words)?;
             STUDIO.set(Some((wanted, studio.clone())));
             studio
@@ -75,14 +75,6 @@ pub async fn render_png(
     let image = studio.render_image(illustration, [width, height], samples);
     let image = image.await.map_err(words)?;
     encode_png(&image).map_err(words)
-}
-
-fn subject_task((name, revision): (&str, u32), resolution: u32) -> Task {
-    Task::Subject {
-        name: name.to_owned(),
-        revision,
-        resolution: Some(resolution),
-    }
 }
 
 async fn made(task: Task) -> Result<Subject, String> {
@@ -127,12 +119,12 @@ pub async fn bench(
         0 => FINE_RESOLUTION,
         n => n,
     };
-    let subject = made(subject_task((name, *revision), resolution)).await?;
+    let subject = made(Task::subject(name, *revision, Some(resolution))).await?;
     let mut meshes = None;
     if plan.wants_meshes() {
         let tool = ScanTask::Mesh(SceneObject::BUILTINS[0].to_owned(), false);
         meshes = Some(BenchMeshes {
-            surface: made_mesh(Task::subject(MESH, 1)).await?,
+            surface: made_mesh(Task::subject(MESH, 1, None)).await?,
             // Nobody waits in a page for its preparation, which takes longest of all.
             finer: None,
             tool: made_mesh(Task::Scan(tool)).await?,

@@ -11,7 +11,6 @@ use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlInputElement, Storag
 use super::address::{
     absolute, address_task, at_base, builtin_task, fetched, file_task, foreign_host,
 };
-use super::clays::Writing;
 use super::loading::wanted_file;
 use super::texts::{self, Texts};
 use super::worker::answer::Answer;
@@ -687,13 +686,10 @@ impl Services for PageServices {
             Ok(task) => task,
             Err(why) => return self.0.borrow_mut().send(Message::Saved(Err(why))),
         };
+        let (name, mime) = (mesh.name, mesh.writing.format.mime());
         if let Task::Clay(clay, _) = &mut task {
-            clay.writing = Some(Writing {
-                format: mesh.format,
-                title: mesh.title,
-            });
+            clay.writing = Some(mesh.writing);
         }
-        let (name, mime) = (mesh.name, mesh.format.mime());
         let started = self.answered(&task, move |services, answer| match answer {
             Answer::Event(LoadEvent::Written(bytes)) => {
                 let name = name.clone();

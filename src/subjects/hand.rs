@@ -469,8 +469,7 @@ impl Model for Hand {
         let muscles = near(&self.muscles, block, 5.0);
         let bones = near(&self.bones, block, 4.0);
         let cartilage = Cord::new(&self.cartilage, (block, 0.0), 110.0, 9, 2.4);
-        let (min, max) = self.bounds_mm();
-        let least = self.thin.least_mm(block.spacing, (max - min).max_element());
+        let least = self.thin.least_mm(block, self.bounds_mm());
         let thick = (block, least);
         let cords = [
             Cord::new(&self.tendons, thick, 90.0, 5, 2.2),

@@ -6,6 +6,7 @@
 
 use super::head_skull::cerebral_space;
 use super::lanes::{LANES, Lanes, Points};
+use super::random::Random;
 use super::shape::{Field, Knot, Places, Shape, both, capsule, cuboid, curve, ellipsoid, strap};
 
 /// Thickness of the fluid between bone and brain, mm.
@@ -139,11 +140,8 @@ impl Folds {
     fn new(side: f32, seed: u32, hemispheres: &Field, fissure: &Field, named: &Field) -> Self {
         let center = [side * 28.0, -6.0, 54.0];
         // A random wave: equal lengths, directions and phases from a small generator of its own.
-        let mut state = seed;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / 16_777_216.0
-        };
+        let mut state = Random(seed);
+        let mut random = || state.next();
         let waves: Vec<([f32; 3], f32)> = (0..WAVES)
             .map(|i| {
                 // Directions spread evenly over the sphere by the golden angle, then jittered.

@@ -47,6 +47,7 @@ mod loft;
 mod paint;
 mod piggybank;
 mod profile;
+mod random;
 mod shape;
 mod tomato;
 mod tools;
@@ -122,14 +123,6 @@ pub fn names() -> &'static [&'static str] {
         "torso",
         "knee",
     ]
-}
-
-/// The newest revision of a subject, from 1. An older one stays as it was, for the documents that show it.
-pub fn newest_revision(name: &str) -> u32 {
-    match name {
-        "hand" | "torso" => 2,
-        _ => 1,
-    }
 }
 
 /// The model of a revision; the newest stands in for one that is not there yet.

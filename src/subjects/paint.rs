@@ -133,12 +133,15 @@ pub(super) enum Thin {
 }
 
 impl Thin {
-    /// Least radius of a tube, mm, on a grid of this spacing, of a model whose longest side has `longest_mm`.
-    pub(super) fn least_mm(self, spacing: f32, longest_mm: f32) -> f32 {
+    /// Least radius of a tube, mm, in a block of a model with this box.
+    pub(super) fn least_mm(self, block: &Block, (min, max): (Vec3, Vec3)) -> f32 {
         match self {
             Self::AsModelled => 0.0,
             // The centre of a voxel is never farther from a point in it: so the voxels along an axis share faces.
-            Self::Whole => 0.87 * spacing.min(longest_mm / FINE_RESOLUTION as f32),
+            Self::Whole => {
+                let shown = (max - min).max_element() / FINE_RESOLUTION as f32;
+                0.87 * block.spacing.min(shown)
+            }
         }
     }
 }

@@ -6,6 +6,7 @@ use glam::Vec3;
 
 use super::lanes::Lanes;
 use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
+use super::random::Random;
 use super::shape::{Field, Knot, Near, Places, ball, capsule, cuboid, curve, disc, ellipsoid};
 
 const SEGMENTS: &[SegmentSpec] = &[
@@ -107,11 +108,8 @@ impl Piggybank {
 /// A heap: coins on the floor of the belly, the later ones on top and tilted, and one that stands against the wall.
 fn coins() -> Field {
     let mut f = Field::default();
-    let mut state = 3u32;
-    let mut random = || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 8) as f32 / 16_777_216.0
-    };
+    let mut state = Random(3);
+    let mut random = || state.next();
     let mut heap: Vec<Vec3> = Vec::new();
     for _ in 0..46 {
         // Fall at a random place: to rest on the belly or on the coins that are there.

@@ -6,6 +6,7 @@ use glam::Vec3;
 
 use super::lanes::Lanes;
 use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
+use super::random::Random;
 use super::shape::{Field, Knot, Near, Places, capsule, curve, ellipsoid, turn_deg};
 
 const SEGMENTS: &[SegmentSpec] = &[
@@ -45,11 +46,8 @@ impl Tomato {
         core.join(0.0, capsule([0.0, 0.0, 30.0], [0.0, 0.0, -24.0], 6.5, 4.0));
         core.join(6.0, ellipsoid([0.0, 0.0, 24.0], [11.0, 11.0, 9.0]));
         let mut seeds = Field::default();
-        let mut state = 77u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 8) as f32 / 16_777_216.0
-        };
+        let mut state = Random(77);
+        let mut random = || state.next();
         for i in 0..CHAMBERS {
             let deg = 360.0 / CHAMBERS as f32 * i as f32 + 9.0;
             let (x, y) = heading(deg);

@@ -353,8 +353,7 @@ impl Model for Torso {
             Field::near(field, block, band + width, &mut near);
             Layer(near)
         };
-        let (min, max) = self.bounds_mm();
-        let least = self.thin.least_mm(block.spacing, (max - min).max_element());
+        let least = self.thin.least_mm(block, self.bounds_mm());
         // What is thinner than a voxel in places.
         let cord = |field, band: f32| {
             let mut near = Near::default();
@@ -402,6 +401,12 @@ impl Model for Torso {
             (lung_veins, 60.0, Tissue::Arteries),
             (lung_arteries, 60.0, Tissue::Veins),
         ];
+        // Trees cut off by the lungs, and those that go on to their roots: the bronchi lie before the vessels there.
+        type Tubes<'a> = &'a [(Layer<'a>, f32, Tissue)];
+        let (cut_off, behind, before): (Tubes<'_>, Tubes<'_>, Tubes<'_>) = match self.thin {
+            Thin::AsModelled => (&lung_trees, &[], &[]),
+            Thin::Whole => (&[], &lung_trees[1..], &lung_trees[..1]),
+        };
         let dome = near(&self.dome, 30.0);
         let [liver, band, gallbladder, pancreas, spleen] = [
             &self.liver,
@@ -509,10 +514,7 @@ impl Model for Torso {
                         let fissure = oblique.abs().min(level) - 0.5 * block.spacing.max(1.8);
                         let shallow = flat(-5.0) - lung;
                         out.tone(row, fissure.max(shallow).max(lung - 2.0), soft, -1000.0);
-                        for (tree, value, tissue) in &lung_trees {
-                            if self.thin == Thin::Whole {
-                                break;
-                            }
+                        for (tree, value, tissue) in cut_off {
                             if let Some(d) = tree.at(&p) {
                                 let d = d.max(lung + 3.0);
                                 out.lay(row, d, soft, flat(*value), *tissue as u8);
@@ -618,29 +620,14 @@ impl Model for Torso {
                     lay(heart_right.or_far(&p), 150.0, Tissue::Veins);
                     lay(heart_left.or_far(&p), 220.0, Tissue::Arteries);
                 }
-                // Whole trees go on outside of the lungs, to their roots. The bronchi lie before the vessels there.
-                let [bronchi, veins, arteries] = &lung_trees;
-                let mut tree = |(tree, value, tissue): &(Layer<'_>, f32, Tissue)| {
-                    if let Some(d) = tree.at(&p).filter(|_| self.thin == Thin::Whole) {
-                        lay(d, *value, *tissue);
-                    }
-                };
-                tree(veins);
-                tree(arteries);
                 if let Some(d) = ureters.filter(|_| self.thin == Thin::Whole) {
                     lay(d.max(c), 60.0, Tissue::Ureters);
                 }
-                for (vessel, value, tissue) in &vessels {
+                for (vessel, value, tissue) in behind.iter().chain(&vessels).chain(before) {
                     if let Some(d) = vessel.at(&p) {
                         lay(d.max(m + 3.0), *value, *tissue);
                     }
                 }
-                let mut tree = |(tree, value, tissue): &(Layer<'_>, f32, Tissue)| {
-                    if let Some(d) = tree.at(&p).filter(|_| self.thin == Thin::Whole) {
-                        lay(d, *value, *tissue);
-                    }
-                };
-                tree(bronchi);
                 if let Some(d) = heart_veins.at(&p) {
                     lay(d, 150.0, Tissue::Veins);
                 }
@@ -669,7 +656,7 @@ impl Model for Torso {
                 }
 
                 // Frame.
-                let (chest_arteries, ..) = &vessels[3];
+                let [.., (chest_arteries, ..)] = &vessels;
                 if let Some(d) = cartilages.at(&p) {
                     lay(d.max(s + 4.0), 110.0, Tissue::Cartilage);
                 }

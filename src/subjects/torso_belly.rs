@@ -4,6 +4,7 @@
 
 use super::paint::Thin;
 use super::profile::Profile;
+use super::random::Random;
 use super::shape::{Field, Knot, at, ball, capsule, curve, ellipsoid, strap};
 
 /// The space under the diaphragm: its surface is the dome.
@@ -327,11 +328,8 @@ pub(super) fn colon() -> Field {
 
 /// The small bowel: one tube in many loops, in front of the great vessels.
 pub(super) fn small_bowel(cavity: &Profile) -> Vec<Knot> {
-    let mut state = 11u32;
-    let mut random = || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 8) as f32 / 16_777_216.0 - 0.5
-    };
+    let mut state = Random(11);
+    let mut random = || state.next() - 0.5;
     let mut knots: Vec<Knot> = vec![([-30.0, 18.0, -132.0], 11.0), ([-44.0, 20.0, -146.0], 12.0)];
     // Columns from the patient's left to the right; up and down through each, now before, now behind.
     let columns = [-62.0f32, -39.0, -16.0, 7.0, 30.0, 50.0];

@@ -6,6 +6,7 @@ use glam::Vec3;
 
 use super::lanes::{LANES, Lanes, Points};
 use super::paint::Thin;
+use super::random::Random;
 use super::shape::{Field, Knot, Shape, along_curve, capsule, chain, curve, ellipsoid};
 
 /// The heart: its outside, and the rooms that hold blood.
@@ -292,18 +293,10 @@ pub(super) fn glands() -> Field {
 /// A branching tree: bronchi, and beside them arteries; veins run between.
 struct Tree<'a> {
     tubes: &'a mut Vec<Shape>,
-    state: u32,
+    random: Random,
 }
 
 impl Tree<'_> {
-    fn random(&mut self) -> f32 {
-        self.state = self
-            .state
-            .wrapping_mul(1_664_525)
-            .wrapping_add(1_013_904_223);
-        (self.state >> 8) as f32 / 16_777_216.0 - 0.5
-    }
-
     fn grow(&mut self, start: Vec3, way: Vec3, length: f32, radius: f32, depth: u32) {
         let way = way / way.length().max(1e-6);
         let end = start + way * length;
@@ -327,9 +320,9 @@ impl Tree<'_> {
             (other, across)
         };
         for sign in [-1.0f32, 1.0] {
-            let spread = 0.62 + 0.3 * self.random();
-            let next = way + a * (sign * spread) + b * (0.5 * self.random());
-            let length = length * (0.76 + 0.2 * self.random());
+            let spread = 0.62 + 0.3 * (self.random.next() - 0.5);
+            let next = way + a * (sign * spread) + b * (0.5 * (self.random.next() - 0.5));
+            let length = length * (0.76 + 0.2 * (self.random.next() - 0.5));
             self.grow(end, next, length, radius * 0.76, depth - 1);
         }
     }
@@ -358,7 +351,7 @@ pub(super) fn lung_trees() -> [Field; 3] {
             let mut tubes = Vec::new();
             let mut tree = Tree {
                 tubes: &mut tubes,
-                state: seed + 13 * i as u32,
+                random: Random(seed + 13 * i as u32),
             };
             tree.grow(
                 Vec3::from_array(start) + Vec3::from_array(shift),

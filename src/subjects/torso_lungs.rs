@@ -6,6 +6,7 @@
 use glam::Vec3;
 
 use super::lanes::{LANES, Lanes, Points};
+use super::random::Random;
 use super::shape::{Places, Shape, capsule};
 
 /// Branchings from a root to the last branches.
@@ -202,7 +203,7 @@ pub(super) fn grow(
 ) -> Vec<Branch> {
     let mut wood = Wood {
         branches: Vec::new(),
-        state: 7,
+        random: Random(7),
     };
     let mut tips = Vec::new();
     for root in &ROOTS {
@@ -224,7 +225,7 @@ pub(super) fn grow(
         for (parent, length) in tips {
             for sign in [-1.0, 1.0] {
                 if let Some(grown) = wood.fork(parent, sign, generation, length, (lung, taken)) {
-                    let longer = length * (0.78 + 0.12 * wood.random());
+                    let longer = length * (0.78 + 0.12 * wood.random.next());
                     next.push((wood.branches.len(), longer));
                     wood.branches.push(grown);
                 }
@@ -237,7 +238,7 @@ pub(super) fn grow(
 
 struct Wood {
     branches: Vec<Branch>,
-    state: u32,
+    random: Random,
 }
 
 /// Where the lungs are, and what stands in the way of a tree.
@@ -247,15 +248,6 @@ type Room<'a> = (
 );
 
 impl Wood {
-    /// From 0 to 1.
-    fn random(&mut self) -> f32 {
-        self.state = self
-            .state
-            .wrapping_mul(1_664_525)
-            .wrapping_add(1_013_904_223);
-        (self.state >> 8) as f32 / 16_777_216.0
-    }
-
     /// A branch to one side of the end of another: of those tried that have room, the one with most room at its end.
     fn fork(
         &mut self,
@@ -276,8 +268,8 @@ impl Wood {
         };
         let mut best: Option<(f32, Branch)> = None;
         for turn in 0..TRIES {
-            let spread = 0.45 + 0.6 * self.random();
-            let aside = 1.3 * (self.random() - 0.5);
+            let spread = 0.45 + 0.6 * self.random.next();
+            let aside = 1.3 * (self.random.next() - 0.5);
             let along = way + a * (sign * spread) + b * aside;
             // Later tries are shorter.
             let length = length * (1.0 - 0.5 * turn as f32 / TRIES as f32);

@@ -7,9 +7,9 @@ use super::harness::{Tab, with_browser};
 use super::parts::{count, small_scan};
 use super::path::downloads;
 use super::*;
-use fabrica::clay::MeshFormat;
+use fabrica::clay::{MeshFormat, Writing};
 use fabrica::document::{Document, SubjectRef};
-use fabrica::shell::clays::{ClayDesk, Writing};
+use fabrica::shell::clays::ClayDesk;
 use std::path::Path;
 
 const CLAY: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05 } } }"#;

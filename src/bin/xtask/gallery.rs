@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fabrica::document::Document;
+use fabrica::document::{Document, newest_revision};
 use fabrica::link;
 use fabrica::subjects::{self, Generator};
 use serde_json::{Value, json};
@@ -336,7 +336,7 @@ fn rounded<const N: usize>(numbers: [f32; N]) -> Value {
 fn made(name: &str, templates: &Value, camera: &Value) -> Result<Document, String> {
     let tree = json!({
         "fabrica": 1,
-        "subject": { "builtin": name, "revision": subjects::newest_revision(name) },
+        "subject": { "builtin": name, "revision": newest_revision(name) },
         "templates": templates,
         "camera": camera,
     });

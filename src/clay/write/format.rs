@@ -46,6 +46,15 @@ impl MeshFormat {
     }
 }
 
+/// A file that a clay is to become.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Writing {
+    /// What programs are to read.
+    pub format: MeshFormat,
+    /// What the picture is called; may be empty.
+    pub title: String,
+}
+
 impl Export<'_> {
     /// The file of a format; `form` counts where the format has two.
     pub fn file(&self, format: MeshFormat, form: Form) -> Vec<u8> {

@@ -24,4 +24,4 @@ mod testing;
 mod title;
 
 pub use export::{Export, Form};
-pub use format::MeshFormat;
+pub use format::{MeshFormat, Writing};

@@ -14,13 +14,11 @@ use super::other;
 use super::pieces::{unpacked, unpacked_grids};
 use super::task::{Part, ScanTask, text_of_reading};
 use crate::assets::LoadEvent;
-use crate::clay::MeshFormat;
+use crate::clay::{MeshFormat, Writing};
 use crate::data::{SubjectSink as _, VolumeBuilder};
 use crate::document::{Clay, ClayVolume, VoxelSource, clay_from_text};
 use crate::load::mesh_among;
-use crate::shell::clays::{
-    ClayDesk, Writing, make_clay, make_clay_of_file, make_clay_of_volume, whole,
-};
+use crate::shell::clays::{ClayDesk, make_clay, make_clay_of_file, make_clay_of_volume, whole};
 
 thread_local! {
     /// What the last clay's strokes left: a worker rests between strokes.

@@ -20,6 +20,7 @@ use web_sys::Blob;
 
 use super::pieces;
 use crate::assets::{BendPose, BendRequest, SegmentationsExpected, Want};
+use crate::clay::Writing;
 use crate::data::{MeshGrids, VolumeLimits};
 use crate::document::{
     Clay, MeshAxes, MeshParts, MeshReading, MeshRef, MeshUnits, RawVoxels, Reading, SubjectBox,
@@ -27,7 +28,6 @@ use crate::document::{
 };
 use crate::figure::is_figure_name;
 use crate::load::{are_mesh_names, is_mesh_name};
-use crate::shell::clays::Writing;
 use crate::subjects::mesh_names;
 
 /// A program that runs in a worker.
@@ -163,12 +163,13 @@ pub enum ScanTask {
 }
 
 impl Task {
-    /// The task to make a revision of a built-in subject, coarse and then fine.
-    pub fn subject(name: &str, revision: u32) -> Self {
+    /// The task to make a revision of a built-in subject, so many voxels along its longest side; `None`: coarse and
+    /// then fine.
+    pub fn subject(name: &str, revision: u32, resolution: Option<u32>) -> Self {
         Self::Subject {
             name: name.to_owned(),
             revision,
-            resolution: None,
+            resolution,
         }
     }
 
