@@ -59,8 +59,8 @@ struct Frame {
     step: f32,
     /// Row of the whole picture that the target begins with.
     first_row: f32,
-    /// Halvings of a step that a cut between nothing and nothing lies in; 0: such cuts are not sought.
-    search_turns: u32,
+    /// 1 in a finished picture, 0 in a quick one of what moves.
+    is_finished: u32,
 }
 
 /// Rays that are asked one by one: for each its origin and its unit direction, subject space.

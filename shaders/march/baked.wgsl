@@ -40,6 +40,16 @@ fn kept_surface(_rest: vec3f, _path: u32, _jacobian: mat3x3f, to_eye: vec3f) -> 
     return KeptSurface(to_eye, 0.0, vec3f(0.0));
 }
 
+/// Returns 0, since the baked map knows no surface of kept tissue.
+fn side_at(_rest: vec3f) -> u32 {
+    return 0u;
+}
+
+/// True for all segments: all lie on the same side.
+fn is_on_side(_label: u32, _side: u32) -> bool {
+    return true;
+}
+
 /// Label of a point of rest space.
 fn label_here(rest: vec3f) -> u32 {
     return nearest_label(rest);

@@ -6,6 +6,8 @@
 //   material_at(pos, mask)             as object_from_subject, with the templates that moved the material (the path)
 //   map_along(pos, path)               the map by the templates of a path; smooth where these moved the material
 //   kept_surface(rest, path, jacobian, to_eye)    the normal that a surface of kept tissue gives to material beside it
+//   side_at(rest)                      the side of surfaces of kept tissue that a point lies on
+//   is_on_side(label, side)            true if a segment lies on that side
 // needs: -
 
 /// How the nearest surface of kept tissue changes the shading of material next to that surface.

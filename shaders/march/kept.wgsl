@@ -132,6 +132,20 @@ fn distance_to_kept(rest: vec3f, keeps: u32, depth: f32, slab: u32) -> f32 {
     return least;
 }
 
+/// The side of the surfaces of kept tissue that a rest point lies on: the sets with such surfaces that hold it.
+fn side_at(rest: vec3f) -> u32 {
+    if (kept_by & 8u) == 0u {
+        return 0u;
+    }
+    let bits = select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), shares_at(rest) >= vec4f(0.5));
+    return (bits.x | bits.y | bits.z | bits.w) & kept.shared_sets;
+}
+
+/// True if a segment lies on a side.
+fn is_on_side(label: u32, side: u32) -> bool {
+    return (kept_by & 8u) == 0u || (sets_of_label(label) & kept.shared_sets) == side;
+}
+
 /// Label of a point of rest space: that of the nearest voxel if this lies on the point's side of the surfaces of kept
 /// tissue, else the one on this side that has most weight among the eight voxels around.
 fn label_here(rest: vec3f) -> u32 {
@@ -139,9 +153,8 @@ fn label_here(rest: vec3f) -> u32 {
     if (kept_by & 8u) == 0u {
         return nearest;
     }
-    let bits = select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), shares_at(rest) >= vec4f(0.5));
-    let side = (bits.x | bits.y | bits.z | bits.w) & kept.shared_sets;
-    if (sets_of_label(nearest) & kept.shared_sets) == side {
+    let side = side_at(rest);
+    if is_on_side(nearest, side) {
         return nearest;
     }
     let last = vec3i(subject.label_dims.xyz) - 1;
@@ -154,7 +167,7 @@ fn label_here(rest: vec3f) -> u32 {
         let label = textureLoad(labels, clamp(vec3i(floor(at)) + step, vec3i(0), last), 0).x;
         let along = select(1.0 - part, part, step == vec3i(1));
         labels_around[i] = label;
-        weights[i] = select(0.0, along.x * along.y * along.z, (sets_of_label(label) & kept.shared_sets) == side);
+        weights[i] = select(0.0, along.x * along.y * along.z, is_on_side(label, side));
     }
     var best = nearest;
     var most = 0.0;

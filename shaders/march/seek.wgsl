@@ -103,6 +103,8 @@ fn leap(ray: Ray, walk: ptr<function, Walk>) {
 /// Where a cut parts tissue from nothing, the tissue may be thinner than a step: the rim of a flap. Over the cut the
 /// map jumps: its two sides come from places so many times as far apart as the samples are.
 const TORN: f32 = 8.0;
+/// Halvings of a step in which a cut parts nothing from nothing.
+const SEARCH_TURNS: u32 = 5u;
 
 /// A search for a cut between two samples in which nothing is seen.
 struct Search {
@@ -185,9 +187,8 @@ fn seek(ray: Ray, walk: ptr<function, Walk>) -> bool {
                 }
                 if is_searching {
                     search = narrowed(search, (*walk).here, (*walk).t);
-                } else if frame.search_turns > 0u && is_torn_between(last, (*walk).here, (*walk).t - (*walk).t_before) {
-                    let turns = frame.search_turns;
-                    search = Search((*walk).t_before, (*walk).t, last, (*walk).here, (*walk).t, turns);
+                } else if frame.is_finished != 0u && is_torn_between(last, (*walk).here, (*walk).t - (*walk).t_before) {
+                    search = Search((*walk).t_before, (*walk).t, last, (*walk).here, (*walk).t, SEARCH_TURNS);
                 }
                 if search.turns > 0u {
                     (*walk).t = 0.5 * (search.low + search.high);

@@ -53,17 +53,6 @@ fn segment_around(pos: vec3f) -> u32 {
     return leader;
 }
 
-/// Colour of the segments around a point, linear RGB, premultiplied by how much of it is known (alpha).
-fn tint_at(pos: vec3f) -> vec4f {
-    let around = around_at(pos);
-    var sum = vec4f(0.0);
-    for (var i = 0; i < 27; i++) {
-        let color = textureLoad(palette, vec2i(i32(label_around(around, i)), 0), 0);
-        sum += vec4f(color.rgb * color.a, color.a) * weight_around(around, i);
-    }
-    return sum;
-}
-
 /// Linear RGB of the visible bodies around a point, premultiplied by how much of it is theirs (alpha).
 fn body_color_at(pos: vec3f) -> vec4f {
     let around = around_at(pos);

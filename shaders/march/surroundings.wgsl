@@ -17,10 +17,15 @@ fn spread(k: u32, n: u32, turn: f32) -> vec3f {
     return vec3f(r * cos(around), r * sin(around), z);
 }
 
-/// Even noise over the pixels (interleaved gradient noise, Jimenez 2014), 0 to 1: hides the spacing of the shadow's
-/// taps. Depends on the pixel alone, so that pictures are repeatable.
+/// Even noise over the pixels (interleaved gradient noise, Jimenez 2014), 0 to 1. Depends on the pixel alone, so that
+/// pictures are repeatable.
 fn pixel_noise(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
+}
+
+/// The noise that hides the spacing of the taps. A finished picture has none: from sample to sample its taps turn.
+fn noise_of_taps(noise: f32) -> f32 {
+    return select(noise, 0.0, frame.is_finished != 0u);
 }
 
 /// Opacity of a sample in a test of light. Edges are found by the gradient at rest, without the deformation.
@@ -33,7 +38,7 @@ fn shading_opacity(found: Sample) -> f32 {
     var left = select(0u, 1u, found.opacity > VISIBLE);
     while left > 0u {
         left--;
-        gain = edge_gain(length(gradient_at(texture_from_rest(found.pos))) * look.table_scale);
+        gain = edge_gain(length(gradient_by(texture_from_rest(found.pos), false)) * look.table_scale);
         if has_bodies != 0u {
             gain = mix(gain, 1.0, body_weight(body_at(found.pos)));
         }
@@ -76,8 +81,9 @@ fn tap_at(k: u32, pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Tap 
     return Tap(at, 0.0, mix(look.shade_near, look.shade_far, part));
 }
 
-/// Taps of the opacity in the deformed space around a surface.
+/// Taps of the opacity in the deformed space around a surface. `noise` tells the pixel from its neighbours.
 fn surroundings_of(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Surroundings {
+    let tap_noise = noise_of_taps(noise);
     var closed = 0.0;
     var weights = 0.0001;
     var open = 1.0;
@@ -85,7 +91,7 @@ fn surroundings_of(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Sur
     // ends at once.
     var mapped = 0u;
     for (var k = 0u; k < occlusion_taps + shadow_taps; k++) {
-        let tap = tap_at(k, pos, normal, key_dir, noise);
+        let tap = tap_at(k, pos, normal, key_dir, tap_noise);
         let is_mapped = cell_at(tap.pos).x != 0u && drawn_kinds != 0u;
         mapped |= select(0u, 1u << k, is_mapped);
         let opacity = select(shading_opacity(sample_unmoved(tap.pos)), 0.0, is_mapped);
@@ -96,7 +102,7 @@ fn surroundings_of(pos: vec3f, normal: vec3f, key_dir: vec3f, noise: f32) -> Sur
     }
     if drawn_kinds != 0u {
         while mapped != 0u {
-            let tap = tap_at(firstTrailingBit(mapped), pos, normal, key_dir, noise);
+            let tap = tap_at(firstTrailingBit(mapped), pos, normal, key_dir, tap_noise);
             mapped &= mapped - 1u;
             let at = map_point(tap.pos, cell_at(tap.pos).x);
             let opacity = shading_opacity(sample_mapped(at));
@@ -114,7 +120,8 @@ fn past_objects(around: Surroundings, pos: vec3f, normal: vec3f, key_dir: vec3f,
         return around;
     }
     let above = pos + normal * ABOVE_SURFACE;
-    // A ray to another place of the lamp in each pixel and sample makes its shadow soft.
+    // A ray to another place of the lamp in each pixel and sample makes its shadow soft. Without the noise of pixels
+    // the few samples of a picture would be seen as so many edges.
     let turn = 6.2831853 * noise + frame.occlusion_turn;
     let lamp = key_dir + LAMP_SIZE * sqrt(fract(frame.first_step + noise)) * vec3f(cos(turn), sin(turn), cos(1.7 * turn));
     var closed = 0.0;
@@ -122,7 +129,7 @@ fn past_objects(around: Surroundings, pos: vec3f, normal: vec3f, key_dir: vec3f,
     var shade = 0.0;
     // The last turn is the shadow: the search stands in one place of the program.
     for (var k = 0u; k <= occlusion_taps; k++) {
-        let tap = tap_at(min(k, max(occlusion_taps, 1u) - 1u), pos, normal, key_dir, noise);
+        let tap = tap_at(min(k, max(occlusion_taps, 1u) - 1u), pos, normal, key_dir, noise_of_taps(noise));
         let is_shadow = k == occlusion_taps;
         let cover = object_cover(above, select(tap.pos - above, SHADOW_REACH * lamp, is_shadow));
         let weight = select(tap.weight, 0.0, is_shadow);

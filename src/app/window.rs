@@ -157,7 +157,7 @@ impl App {
             .wgpu_render_state
             .as_ref()
             .map(|render_state| Picture::new(render_state, start.gpu, start.clock));
-        let mut session = Session::new(Document::new());
+        let mut session = Session::new(Document::fresh());
         let is_wished = |key| services.stored(key).as_deref() == Some("yes");
         session.is_lettering = is_wished(STORED_LETTERING);
         session.has_title = is_wished(STORED_TITLE);

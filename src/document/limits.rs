@@ -73,7 +73,7 @@ pub const DRAWN_FIGURES: [&str; 5] = [
 /// Those that are meshes, of which no clay begins as of voxels.
 pub(crate) const MESH_SUBJECTS: [&str; 1] = ["apple"];
 /// The newest revisions of the built-in subjects that were improved since their first.
-const REVISIONS: [(&str, u32); 2] = [("hand", 2), ("torso", 2)];
+const REVISIONS: [(&str, u32); 4] = [("hand", 2), ("head", 2), ("knee", 2), ("torso", 2)];
 /// The other subjects that the program generates, or will generate in a later release.
 pub const BUILTIN_SUBJECTS: [&str; 9] = [
     "apple",

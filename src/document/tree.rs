@@ -1,7 +1,7 @@
 //! The document: the JSON tree, whole and valid.
 
 use super::lesson::Lesson;
-use super::limits::{FORMAT, MAX_BYTES, MAX_NOTICES};
+use super::limits::{DEFAULT_SUBJECT, FORMAT, MAX_BYTES, MAX_NOTICES};
 use super::model::{Illustration, SubjectRef};
 use super::read::resolve;
 use super::text::{DocumentError, Notice, NoticeKind, json, pointer};
@@ -52,6 +52,19 @@ impl Document {
                 in_space: None,
             }),
         }
+    }
+
+    /// The document that an author begins with: the head in its newest revision, undeformed.
+    pub fn fresh() -> Self {
+        let subject = SubjectRef::newest(DEFAULT_SUBJECT);
+        Edit::SetSubject(subject)
+            .apply(&Self::new())
+            .unwrap_or_default()
+    }
+
+    /// True for a document in which nothing was made yet: an empty one, or one that an author begins with.
+    pub fn is_blank(&self) -> bool {
+        *self == Self::new() || *self == Self::fresh()
     }
 
     /// Reads a document from JSON text of at most 1 MiB.

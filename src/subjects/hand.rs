@@ -8,7 +8,9 @@ use super::hand_cords::{arteries, nerves, tendons, veins};
 use super::hand_plan::{Finger, arr, fingers};
 use super::lanes::Lanes;
 use super::limb::{Cord, inner_width, lay_bone, lay_skin, near, parted};
-use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, Thin, border_width, segment};
+use super::paint::{
+    Block, Canvas, Model, Passage, ROWS, Revision, SegmentSpec, border_width, segment,
+};
 use super::shape::{Field, Knot, Places, Shape, ball, capsule, curve, ellipsoid, strap};
 
 const SEGMENTS: &[SegmentSpec] = &[
@@ -38,25 +40,25 @@ pub(super) struct Hand {
     arteries: Field,
     veins: Field,
     nerves: Field,
-    thin: Thin,
+    revision: Revision,
 }
 
 impl Hand {
-    pub(super) fn new(thin: Thin) -> Self {
+    pub(super) fn new(revision: Revision) -> Self {
         let fingers = fingers();
         let (skin, nails) = skin(&fingers);
         let (bones, cartilage) = bones(&fingers);
         Self {
             muscles: muscles(),
-            tendons: tendons(&fingers, &skin, thin),
-            arteries: arteries(&fingers, thin),
-            veins: veins(&fingers, &skin, thin),
+            tendons: tendons(&fingers, &skin, revision),
+            arteries: arteries(&fingers, revision),
+            veins: veins(&fingers, &skin, revision),
             nerves: nerves(&fingers),
             skin,
             nails,
             bones,
             cartilage,
-            thin,
+            revision,
         }
     }
 }
@@ -460,6 +462,10 @@ impl Model for Hand {
         [-1000.0, 1400.0]
     }
 
+    fn passage(&self) -> Passage {
+        self.revision.passage()
+    }
+
     fn paint(&self, block: &Block, out: &mut Canvas) {
         let skin = near(&self.skin, block, 6.0);
         if skin.is_empty() {
@@ -469,7 +475,7 @@ impl Model for Hand {
         let muscles = near(&self.muscles, block, 5.0);
         let bones = near(&self.bones, block, 4.0);
         let cartilage = Cord::new(&self.cartilage, (block, 0.0), 110.0, 9, 2.4);
-        let least = self.thin.least_mm(block, self.bounds_mm());
+        let least = self.revision.least_mm(block, self.bounds_mm());
         let thick = (block, least);
         let cords = [
             Cord::new(&self.tendons, thick, 90.0, 5, 2.2),

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::hand_plan::{Finger, arr};
-use super::paint::Thin;
+use super::paint::Revision;
 use super::shape::{Field, Knot, along_curve, chain, curve, strap};
 
 /// How far under the skin a vein lies, mm; and a tendon at least, on a finger and before, where veins cross it.
@@ -11,7 +11,7 @@ const VEIN_UNDER_MM: f32 = 2.15;
 const FINGER_TENDON_UNDER_MM: f32 = 2.6;
 const TENDON_UNDER_MM: f32 = 4.2;
 
-pub(super) fn tendons(fingers: &[Finger], skin: &Field, thin: Thin) -> Field {
+pub(super) fn tendons(fingers: &[Finger], skin: &Field, revision: Revision) -> Field {
     let mut f = Field::default();
     for (index, finger) in fingers.iter().enumerate() {
         let j = &finger.joints;
@@ -58,10 +58,10 @@ pub(super) fn tendons(fingers: &[Finger], skin: &Field, thin: Thin) -> Field {
         }
         f.join_all(
             0.0,
-            match thin {
-                Thin::AsModelled => curve(&over),
+            match revision {
+                Revision::First => curve(&over),
                 // Over the knuckles they would come out of the skin.
-                Thin::Whole => {
+                Revision::Second => {
                     let laid = along_curve(&over);
                     let knuckle = laid.len() / 2;
                     let under = |(i, (p, r)): (usize, Knot)| {
@@ -100,12 +100,12 @@ pub(super) fn tendons(fingers: &[Finger], skin: &Field, thin: Thin) -> Field {
     f
 }
 
-pub(super) fn arteries(fingers: &[Finger], thin: Thin) -> Field {
+pub(super) fn arteries(fingers: &[Finger], revision: Revision) -> Field {
     let mut f = Field::default();
     // Under the thumb's tendon, or through it.
-    let under_tendon = match thin {
-        Thin::AsModelled => [-24.0, -6.0, 28.0],
-        Thin::Whole => [-23.0, -2.0, 28.0],
+    let under_tendon = match revision {
+        Revision::First => [-24.0, -6.0, 28.0],
+        Revision::Second => [-23.0, -2.0, 28.0],
     };
     let deep: [Knot; 7] = [
         ([-19.0, 9.0, -108.0], 1.9),
@@ -125,10 +125,10 @@ pub(super) fn arteries(fingers: &[Finger], thin: Thin) -> Field {
         ([12.0, 11.5, 54.0], 1.6),
         ([-3.0, 11.5, 60.0], 1.6),
     ];
-    arch.extend(match thin {
-        Thin::AsModelled => vec![([-17.0, 11.5, 52.0], 1.4), ([-24.0, 12.0, 40.0], 1.2)],
+    arch.extend(match revision {
+        Revision::First => vec![([-17.0, 11.5, 52.0], 1.4), ([-24.0, 12.0, 40.0], 1.2)],
         // Up to the nerves of index finger and thumb.
-        Thin::Whole => vec![([-9.0, 12.4, 58.0], 1.4)],
+        Revision::Second => vec![([-9.0, 12.4, 58.0], 1.4)],
     });
     f.join_all(0.0, curve(&arch));
     let on_deep_arch = along_curve(&deep);
@@ -152,7 +152,7 @@ pub(super) fn arteries(fingers: &[Finger], thin: Thin) -> Field {
                 beside(3, 0.9),
                 beside(4, 0.6),
             ];
-            if thin == Thin::Whole {
+            if revision == Revision::Second {
                 let off = |knot: &Knot| (Vec3::from_array(knot.0) - root).length_squared();
                 // From the deep arch, which lies behind the nerves.
                 let nearest = on_deep_arch.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
@@ -175,16 +175,16 @@ const NET: [[f32; 3]; 5] = [
     [30.0, -11.0, 56.0],
 ];
 
-pub(super) fn veins(fingers: &[Finger], skin: &Field, thin: Thin) -> Field {
+pub(super) fn veins(fingers: &[Finger], skin: &Field, revision: Revision) -> Field {
     let mut f = Field::default();
     let mut tube = |knots: &[Knot]| {
         let under = |mm: f32| move |&(p, r): &Knot| (skin.pull(p, -(r + mm)), r);
         f.join_all(
             0.0,
-            match thin {
-                Thin::AsModelled => curve(&knots.iter().map(under(1.9)).collect::<Vec<_>>()),
+            match revision {
+                Revision::First => curve(&knots.iter().map(under(1.9)).collect::<Vec<_>>()),
                 // Under the skin between the knots too.
-                Thin::Whole => {
+                Revision::Second => {
                     let laid = along_curve(knots);
                     chain(&laid.iter().map(under(VEIN_UNDER_MM)).collect::<Vec<_>>())
                 }
@@ -220,9 +220,9 @@ pub(super) fn veins(fingers: &[Finger], skin: &Field, thin: Thin) -> Field {
         let j = &finger.joints;
         let beside = |joint: usize, r: f32| {
             // From afar the way to the skin may end on the next finger.
-            let away = match thin {
-                Thin::AsModelled => 20.0,
-                Thin::Whole => finger.flesh[joint],
+            let away = match revision {
+                Revision::First => 20.0,
+                Revision::Second => finger.flesh[joint],
             };
             (
                 arr(j[joint] - finger.palmar[joint.min(3)] * away + finger.across * 3.0),
@@ -230,7 +230,7 @@ pub(super) fn veins(fingers: &[Finger], skin: &Field, thin: Thin) -> Field {
             )
         };
         let mut knots = vec![beside(3, 0.9), beside(2, 1.1), beside(1, 1.2)];
-        if thin == Thin::Whole {
+        if revision == Revision::Second {
             // On to the net on the back of the hand.
             let off = |p: &[f32; 3]| (Vec3::from_array(*p) - j[1]).length_squared();
             let nearest = NET.iter().min_by(|a, b| off(a).total_cmp(&off(b)));

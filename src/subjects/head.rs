@@ -10,7 +10,9 @@ use super::head_skin;
 use super::head_skull;
 use super::head_soft;
 use super::lanes::Lanes;
-use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
+use super::paint::{
+    Block, Canvas, Model, Passage, ROWS, Revision, SegmentSpec, border_width, segment,
+};
 use super::shape::{Field, Near, Places, smooth_min};
 
 /// Segments of the head; the number of each is its label.
@@ -110,6 +112,7 @@ pub(super) struct Head {
     iris: Field,
     pupil: Field,
     cortex: Cortex,
+    revision: Revision,
 }
 
 fn of(shapes: Vec<super::shape::Shape>, smooth: f32) -> Field {
@@ -120,7 +123,7 @@ fn of(shapes: Vec<super::shape::Shape>, smooth: f32) -> Field {
 
 impl Head {
     /// Builds the model; it takes some ten milliseconds, most for the folds of the brain.
-    pub(super) fn new() -> Self {
+    pub(super) fn new(revision: Revision) -> Self {
         let skin = head_skin::skin();
 
         let mut lower_bones = head_skull::mandible();
@@ -140,9 +143,9 @@ impl Head {
             glands: head_soft::glands(),
             airway: head_soft::airway(),
             sinuses: head_skull::sinuses(),
-            arteries: head_soft::arteries(&skin, &cavity),
-            veins: head_soft::veins(&skin, &cavity),
-            nerves: head_soft::nerves(),
+            arteries: head_soft::arteries(&skin, &cavity, revision),
+            veins: head_soft::veins(&skin, &cavity, revision),
+            nerves: head_soft::nerves(&skin, revision),
             canal: head_skull::canal(),
             face_bones: head_skull::face_bones(),
             openings: head_skull::openings(),
@@ -163,6 +166,7 @@ impl Head {
             skin,
             cavity,
             cortex: Cortex::new(),
+            revision,
         }
     }
 }
@@ -171,9 +175,10 @@ impl Head {
 struct Layer<'a>(Near<'a>);
 
 impl<'a> Layer<'a> {
-    fn new(field: &'a Field, block: &Block, band: f32) -> Self {
+    /// With capsules that are at least `least` mm thick.
+    fn new(field: &'a Field, block: &Block, band: f32, least: f32) -> Self {
         let mut near = Near::default();
-        field.near(block, band, &mut near);
+        field.near_thick(block, band, least, &mut near);
         Self(near)
     }
 
@@ -184,6 +189,25 @@ impl<'a> Layer<'a> {
             return None;
         }
         Some(self.0.distance(p))
+    }
+}
+
+/// How far the brain stays away from vessels on it, and how deep under the skull's inner side such grooves reach, mm.
+const GROOVE_MM: f32 = 0.9;
+const GROOVE_DEPTH_MM: f32 = 5.0;
+
+impl Head {
+    /// Distance from the grooves of the brain in which vessels lie, positive in them; `inside` is the distance from the
+    /// fluid around the brain. In the first revision there are none: its vessels sink into the brain.
+    #[inline(always)]
+    fn grooves(&self, p: &Places, vessels: [&Layer<'_>; 2], inside: Lanes) -> Lanes {
+        let mut grooves = Lanes::splat(-1e3);
+        if self.revision == Revision::Second {
+            for distance in vessels.into_iter().filter_map(|vessels| vessels.at(p)) {
+                grooves = grooves.max(Lanes::splat(GROOVE_MM) - distance);
+            }
+        }
+        grooves.min(inside + GROOVE_DEPTH_MM)
     }
 }
 
@@ -203,9 +227,16 @@ impl Model for Head {
         [-1000.0, 2400.0]
     }
 
+    fn passage(&self) -> Passage {
+        self.revision.passage()
+    }
+
     fn paint(&self, block: &Block, out: &mut Canvas) {
         let width = border_width(block.spacing);
-        let layer = |field, band: f32| Layer::new(field, block, band + width);
+        let layer = |field, band: f32| Layer::new(field, block, band + width, 0.0);
+        // What is thinner than a voxel in places.
+        let least = self.revision.least_mm(block, self.bounds_mm());
+        let cord = |field| Layer::new(field, block, width, least);
         let skin = layer(&self.skin, 16.0);
         let eyes = layer(&self.eyes, 1.0);
         if skin.0.is_empty() && eyes.0.is_empty() {
@@ -222,9 +253,9 @@ impl Model for Head {
         let glands = layer(&self.glands, 0.0);
         let airway = layer(&self.airway, 4.0);
         let sinuses = layer(&self.sinuses, 3.0);
-        let arteries = layer(&self.arteries, 0.0);
-        let veins = layer(&self.veins, 0.0);
-        let nerves = layer(&self.nerves, 0.0);
+        let arteries = cord(&self.arteries);
+        let veins = cord(&self.veins);
+        let nerves = cord(&self.nerves);
         let cavity = layer(&self.cavity, 12.0);
         let canal = layer(&self.canal, 2.0);
         let face_bones = layer(&self.face_bones, 6.0);
@@ -242,6 +273,11 @@ impl Model for Head {
         let lens = layer(&self.lens, 0.0);
         let iris = layer(&self.iris, 0.0);
         let pupil = layer(&self.pupil, 0.0);
+        // Over it no vessel passes the bone.
+        let base = match self.revision {
+            Revision::First => 4.0,
+            Revision::Second => head_soft::BASE_MM,
+        };
         let skin_thickness = 2.3f32.max(0.9 * block.spacing);
         let flat = Lanes::splat;
 
@@ -378,6 +414,7 @@ impl Model for Head {
                     if let Some(solid) = hemispheres.at(&p) {
                         let gap = fissure.at(&p).unwrap_or(flat(1e3));
                         let d = self.cortex.distance(&p.plain, solid, gap).max(inside);
+                        let d = d.max(self.grooves(&p, [&arteries, &veins], inside));
                         lay(d, flat(38.0), Tissue::Brain);
                         lay(d + 3.1, flat(29.0), Tissue::WhiteMatter);
                         if let Some(c) = callosum.at(&p) {
@@ -422,9 +459,16 @@ impl Model for Head {
             if let Some(d) = nerves.at(&p) {
                 lay(d.max(s + 3.2), flat(32.0), Tissue::Nerves);
             }
-            // Vessels run within the vault or outside it, never in its bone.
+            // Vessels run within the vault or outside it, never in its bone; whole ones in grooves where the scalp is
+            // thin.
             let beside_vault = match (hollow, cranium) {
-                (Some(c), Some(vault)) if block.center().z > 4.0 => (c + 0.3).min(-vault),
+                (Some(c), Some(vault)) if block.center().z > base => {
+                    let outside = match self.revision {
+                        Revision::First => -vault,
+                        Revision::Second => flat(1.5) - c,
+                    };
+                    (c + 0.3).min(outside)
+                }
                 _ => flat(-1e3),
             };
             for (vessels, value, tissue) in [
@@ -441,6 +485,11 @@ impl Model for Head {
             if let Some(d) = hair.at(&p) {
                 lay(d.max((s - 0.1).abs() - 0.9), flat(20.0), Tissue::Hair);
             }
+            // No sinus opens outwards: its soft border stays away from the skin.
+            let sinus = sinus.map(|d| match self.revision {
+                Revision::First => d,
+                Revision::Second => d.max(s + 3.4),
+            });
             for air in [air, sinus].into_iter().flatten() {
                 lay(air.max(s), flat(-1000.0), Tissue::Airway);
             }

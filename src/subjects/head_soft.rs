@@ -3,8 +3,10 @@
 //! Coordinates as in [`super::head_skin`].
 
 use super::lanes::{Lanes, Points};
+use super::paint::Revision;
 use super::shape::{
-    Field, Knot, Places, Shape, ball, both, capsule, cuboid, curve, ellipsoid, strap,
+    Field, Knot, Places, Shape, along_curve, at, ball, both, capsule, chain, cuboid, curve,
+    ellipsoid, strap,
 };
 
 /// The fan of the temporal muscle.
@@ -409,7 +411,7 @@ pub(super) fn airway() -> Field {
 
 /// Vessels that would run in the bone of the vault are moved to its inner or outer side, whichever is nearer; those
 /// under the scalp lie at an even depth.
-fn fitted(knots: &[Knot], skin: &Field, cavity: &Field) -> Vec<Knot> {
+fn fitted(knots: &[Knot], skin: &Field, cavity: &Field, revision: Revision) -> Vec<Knot> {
     let distance = |field: &Field, p: [f32; 3]| {
         let lane = |axis: usize| Lanes::splat(p[axis]);
         let place = Points {
@@ -423,10 +425,15 @@ fn fitted(knots: &[Knot], skin: &Field, cavity: &Field) -> Vec<Knot> {
         .iter()
         .map(|&(p, r)| {
             let inside = distance(cavity, p);
-            let pulled = if p[2] < 4.0 || inside < -(r + 0.8) {
+            // Branches on the brain sank into it in the first revision.
+            let (deep, under) = match revision {
+                Revision::Second if p[2] > BASE_MM => (9.0, r + 1.0),
+                _ => (r + 0.8, r + 0.6),
+            };
+            let pulled = if p[2] < 4.0 || inside < -deep {
                 p
             } else if inside < 5.0 {
-                cavity.pull(p, -(r + 0.6))
+                cavity.pull(p, -under)
             } else if p[2] < 25.0 {
                 p
             } else {
@@ -435,6 +442,73 @@ fn fitted(knots: &[Knot], skin: &Field, cavity: &Field) -> Vec<Knot> {
             (pulled, r)
         })
         .collect()
+}
+
+/// Vessels pass the bones of the skull's base, which ends at this height, mm.
+pub(super) const BASE_MM: f32 = 44.0;
+
+/// Where a knot of a vessel lies.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// Under the vault, by its inner side.
+    Inner,
+    /// Under the scalp.
+    Scalp,
+    /// Deep in the brain, in the face or in the neck.
+    Elsewhere,
+}
+
+/// The capsules of a vessel, on one side of the head. In the second revision it keeps its depth under the vault or
+/// under the scalp between its knots too: where it dived into the bone or the brain, it was cut.
+fn vessel(knots: &[Knot], skin: &Field, cavity: &Field, revision: Revision) -> Vec<Shape> {
+    let fitted = fitted(knots, skin, cavity, revision);
+    if revision == Revision::First {
+        return curve(&fitted);
+    }
+    let side = |&(p, r): &Knot| {
+        let inside = cavity.at(p);
+        if p[2] < 25.0 || inside < -(r + 1.6) {
+            Side::Elsewhere
+        } else if inside < 0.0 {
+            Side::Inner
+        } else {
+            Side::Scalp
+        }
+    };
+    let sides: Vec<Side> = fitted.iter().map(side).collect();
+    let pieces = along_curve(&fitted);
+    let in_span = (pieces.len() - 1) / (fitted.len() - 1);
+    let points: Vec<Knot> = pieces
+        .into_iter()
+        .enumerate()
+        .map(|(i, (p, r))| {
+            let pulled = |field: &Field, depth: f32| {
+                let there = field.pull(p, -depth);
+                // About the base of the skull the slope leads astray.
+                if at(p).distance(at(there)) < 16.0 {
+                    there
+                } else {
+                    p
+                }
+            };
+            let covered = |depth: f32| {
+                if skin.at(p) > -depth {
+                    pulled(skin, depth)
+                } else {
+                    p
+                }
+            };
+            let place = match [sides[i / in_span], sides[i.div_ceil(in_span)]] {
+                [Side::Scalp, Side::Scalp] => pulled(skin, (r + 2.8).min(4.6)),
+                [Side::Inner, Side::Inner] => pulled(cavity, r + 1.0),
+                [Side::Scalp, _] | [_, Side::Scalp] => covered(r + 2.8),
+                _ if p[2] > BASE_MM && cavity.at(p) > -(r + 1.0) => pulled(cavity, r + 1.0),
+                _ => covered(r + 3.6),
+            };
+            (place, r)
+        })
+        .collect();
+    chain(&points)
 }
 
 /// Signed distance to the superior sagittal sinus, mm, from that to the cavity: it runs under the vault in the middle,
@@ -449,10 +523,10 @@ pub(super) fn sagittal_sinus(p: &Points, cavity: Lanes) -> Lanes {
 }
 
 /// Arteries outside the skull, and inside it.
-pub(super) fn arteries(skin: &Field, cavity: &Field) -> Field {
+pub(super) fn arteries(skin: &Field, cavity: &Field, revision: Revision) -> Field {
     let mut f = Field::default();
     let mut tube = |knots: &[Knot]| {
-        f.join_all(0.0, both(curve(&fitted(knots, skin, cavity))));
+        f.join_all(0.0, both(vessel(knots, skin, cavity, revision)));
     };
     // Common carotid, internal carotid with its siphon, middle and anterior cerebral arteries.
     tube(&[
@@ -544,7 +618,12 @@ pub(super) fn arteries(skin: &Field, cavity: &Field) -> Field {
         ([71.0, -16.0, 76.0], 1.3),
         ([58.0, -22.0, 102.0], 1.1),
     ]);
-    tube(&[
+    // Branches begin in the middle of the outer carotid.
+    let branch = |joint: Knot, knots: &[Knot]| match revision {
+        Revision::First => knots.to_vec(),
+        Revision::Second => [&[joint], knots].concat(),
+    };
+    let facial: [Knot; 8] = [
         ([32.0, 18.0, -88.0], 2.0),
         ([42.0, 34.0, -82.0], 1.9),
         ([47.0, 42.0, -74.0], 1.8),
@@ -553,20 +632,22 @@ pub(super) fn arteries(skin: &Field, cavity: &Field) -> Field {
         ([21.5, 91.0, -26.0], 1.4),
         ([13.0, 91.0, 4.0], 1.2),
         ([13.0, 88.0, 18.0], 1.0),
-    ]);
-    tube(&[
+    ];
+    tube(&branch(([29.0, 13.0, -91.0], 2.0), &facial));
+    let occipital: [Knot; 6] = [
         ([34.0, 8.0, -76.0], 1.8),
         ([48.0, -16.0, -34.0], 1.7),
         ([52.0, -52.0, -10.0], 1.5),
         ([40.0, -78.0, 12.0], 1.4),
         ([30.0, -90.0, 36.0], 1.2),
         ([26.0, -88.0, 62.0], 1.0),
-    ]);
+    ];
+    tube(&branch(([34.0, 14.0, -78.0], 1.8), &occipital));
     f
 }
 
 /// Veins and the sinuses of the dura.
-pub(super) fn veins(skin: &Field, cavity: &Field) -> Field {
+pub(super) fn veins(skin: &Field, cavity: &Field, revision: Revision) -> Field {
     let mut f = Field::default();
     f.join_all(
         0.0,
@@ -577,7 +658,7 @@ pub(super) fn veins(skin: &Field, cavity: &Field) -> Field {
         ]),
     );
     let mut tube = |knots: &[Knot]| {
-        f.join_all(0.0, both(curve(&fitted(knots, skin, cavity))));
+        f.join_all(0.0, both(vessel(knots, skin, cavity, revision)));
     };
     // Transverse and sigmoid sinus into the internal jugular vein.
     tube(&[
@@ -609,20 +690,36 @@ pub(super) fn veins(skin: &Field, cavity: &Field) -> Field {
         ([55.0, 0.0, -110.0], 2.4),
         ([50.0, 8.0, -190.0], 2.5),
     ]);
+    // The facial vein crosses the lower jaw behind the artery and opens into the inner jugular.
+    let [over_jaw, end]: [Knot; 2] = match revision {
+        Revision::First => [([48.0, 38.0, -76.0], 1.9), ([38.0, 14.0, -88.0], 2.2)],
+        Revision::Second => [([46.0, 30.0, -68.0], 1.9), ([36.0, 3.0, -81.0], 2.2)],
+    };
     tube(&[
         ([14.5, 87.0, 17.0], 1.2),
         ([24.0, 86.0, -20.0], 1.5),
         ([38.0, 72.0, -48.0], 1.7),
-        ([48.0, 38.0, -76.0], 1.9),
-        ([38.0, 14.0, -88.0], 2.2),
+        over_jaw,
+        end,
     ]);
     f
 }
 
 /// Nerves: optic nerve, crossing and tract, trigeminal, facial.
-pub(super) fn nerves() -> Field {
+pub(super) fn nerves(skin: &Field, revision: Revision) -> Field {
     let mut f = Field::default();
-    let mut tube = |knots: &[Knot]| f.join_all(0.0, both(curve(knots)));
+    let mut tube = |knots: &[Knot]| {
+        let mut path = along_curve(knots);
+        if revision == Revision::Second {
+            for (p, r) in &mut path {
+                let depth = *r + 4.2;
+                if skin.at(*p) > -depth {
+                    *p = skin.pull(*p, -depth);
+                }
+            }
+        }
+        f.join_all(0.0, both(chain(&path)));
+    };
     tube(&[
         ([29.5, 60.5, 16.4], 2.6),
         ([24.0, 50.0, 17.0], 2.4),
@@ -642,12 +739,18 @@ pub(super) fn nerves() -> Field {
         ([25.0, 19.0, -14.0], 2.0),
         ([33.0, 26.0, -44.0], 1.8),
     ]);
-    tube(&[
+    // The facial nerve, on the inner side of the vein behind the jaw.
+    let facial: [Knot; 5] = [
         ([52.0, -4.0, -18.0], 1.6),
+        ([49.0, 3.0, -22.0], 1.5),
         ([58.0, 12.0, -28.0], 1.4),
         ([58.0, 32.0, -26.0], 1.2),
         ([48.0, 56.0, -22.0], 1.0),
-    ]);
+    ];
+    match revision {
+        Revision::First => tube(&[facial[0], facial[2], facial[3], facial[4]]),
+        Revision::Second => tube(&facial),
+    }
     // Olfactory tract.
     tube(&[
         ([6.0, 68.0, 31.5], 2.0),

@@ -6,7 +6,9 @@ use glam::Vec3;
 
 use super::lanes::Lanes;
 use super::limb::{Cord, inner_width, lay_bone, lay_skin, near, parted};
-use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, border_width, segment};
+use super::paint::{
+    Block, Canvas, Model, Passage, ROWS, Revision, SegmentSpec, border_width, segment,
+};
 use super::shape::{Field, Knot, Places, Shape, ball, capsule, curve, ellipsoid, strap};
 
 const SEGMENTS: &[SegmentSpec] = &[
@@ -49,6 +51,7 @@ pub(super) struct Knee {
     arteries: Field,
     veins: Field,
     nerves: Field,
+    revision: Revision,
 }
 
 fn skin() -> Field {
@@ -232,7 +235,7 @@ fn muscles() -> Field {
 }
 
 impl Knee {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(revision: Revision) -> Self {
         let skin = skin();
         let tube = |f: &mut Field, knots: &[Knot]| f.join_all(0.0, curve(knots));
         let mut fibula = Field::default();
@@ -463,15 +466,14 @@ impl Knee {
         ]
         .map(|p| (skin.pull(p, -6.0), 2.2));
         tube(&mut veins, &great);
-        tube(
-            &mut veins,
-            &[
-                ([5.0, -44.0, 8.0], 2.2),
-                ([6.0, -56.0, -10.0], 2.2),
-                ([6.0, -64.0, -60.0], 2.0),
-                ([6.0, -66.0, -130.0], 1.8),
-            ],
-        );
+        // The short one under the skin opens into the deep one past the nerve; in the first revision it ran into the
+        // nerve.
+        let [opening, bend]: [Knot; 2] = match revision {
+            Revision::First => [([5.0, -44.0, 8.0], 2.2), ([6.0, -56.0, -10.0], 2.2)],
+            Revision::Second => [([0.0, -45.0, 10.0], 2.2), ([-2.0, -55.0, -6.0], 2.2)],
+        };
+        let below = [([6.0, -64.0, -60.0], 2.0), ([6.0, -66.0, -130.0], 1.8)];
+        tube(&mut veins, &[opening, bend, below[0], below[1]]);
         tube(
             &mut nerves,
             &[
@@ -495,6 +497,7 @@ impl Knee {
             ],
         );
         Self {
+            revision,
             skin,
             muscles: muscles(),
             femur: femur(),
@@ -529,6 +532,10 @@ impl Model for Knee {
         [-1000.0, 1400.0]
     }
 
+    fn passage(&self) -> Passage {
+        self.revision.passage()
+    }
+
     fn paint(&self, block: &Block, out: &mut Canvas) {
         let skin = near(&self.skin, block, 12.0);
         if skin.is_empty() {
@@ -544,14 +551,20 @@ impl Model for Knee {
         let gliding = near(&self.gliding, block, 1.0);
         let menisci = near(&self.menisci, block, 1.0);
         let bag = Cord::new(&self.capsule, (block, 0.0), 12.0, 12, 5.0);
-        let cords = [
-            Cord::new(&self.veins, (block, 0.0), 160.0, 14, 3.0),
-            Cord::new(&self.arteries, (block, 0.0), 230.0, 13, 3.0),
-            Cord::new(&self.nerves, (block, 0.0), 32.0, 15, 3.0),
+        let least = self.revision.least_mm(block, self.bounds_mm());
+        let thick = (block, least);
+        let mut cords = [
+            Cord::new(&self.veins, thick, 160.0, 14, 3.0),
+            Cord::new(&self.arteries, thick, 230.0, 13, 3.0),
+            Cord::new(&self.nerves, thick, 32.0, 15, 3.0),
             // The small arteries about the joint pass under its ligaments.
-            Cord::new(&self.ligaments, (block, 0.0), 95.0, 10, 4.0),
-            Cord::new(&self.tendons, (block, 0.0), 90.0, 11, 3.0),
+            Cord::new(&self.ligaments, thick, 95.0, 10, 4.0),
+            Cord::new(&self.tendons, thick, 90.0, 11, 3.0),
         ];
+        if self.revision == Revision::Second {
+            // Some ran into a ligament: through it they stay whole.
+            cords.rotate_left(3);
+        }
         let (width, soft) = (border_width(block.spacing), inner_width(block));
         let flat = Lanes::splat;
         for row in 0..ROWS {

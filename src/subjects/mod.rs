@@ -64,7 +64,7 @@ use glam::{DAffine3, DMat3, DVec3, UVec3, Vec3};
 
 use crate::data::{Grid, Mesh, Segment, Segmentation, SubjectPart, SubjectSink, Volume, Voxels};
 use lanes::LANES;
-use paint::{Block, Canvas, Model, ROWS, Thin};
+use paint::{Block, Canvas, Model, ROWS, Revision};
 
 pub use paint::FINE_RESOLUTION;
 pub use tools::tool;
@@ -127,19 +127,19 @@ pub fn names() -> &'static [&'static str] {
 
 /// The model of a revision; the newest stands in for one that is not there yet.
 fn model(name: &str, revision: u32) -> Option<Box<dyn Model>> {
-    let thin = match revision {
-        0 | 1 => Thin::AsModelled,
-        _ => Thin::Whole,
+    let revision = match revision {
+        0 | 1 => Revision::First,
+        _ => Revision::Second,
     };
     Some(match name {
         "bar" => Box::new(bar::Bar),
         "cube" => Box::new(cube::Cube),
         "tomato" => Box::new(tomato::Tomato::new()),
         "piggybank" => Box::new(piggybank::Piggybank::new()),
-        "hand" => Box::new(hand::Hand::new(thin)),
-        "knee" => Box::new(knee::Knee::new()),
-        "torso" => Box::new(torso::Torso::new(thin)),
-        "head" => Box::new(head::Head::new()),
+        "hand" => Box::new(hand::Hand::new(revision)),
+        "knee" => Box::new(knee::Knee::new(revision)),
+        "torso" => Box::new(torso::Torso::new(revision)),
+        "head" => Box::new(head::Head::new(revision)),
         _ => return None,
     })
 }
@@ -271,7 +271,7 @@ impl Generator {
                         origin: self.origin + first * self.spacing,
                         spacing: self.spacing,
                     };
-                    let mut canvas = Canvas::new(lowest);
+                    let mut canvas = Canvas::new(lowest, self.model.passage());
                     self.model.paint(&block, &mut canvas);
                     for row in 0..ROWS {
                         let y = y0 + row % LANES;

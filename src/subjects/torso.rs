@@ -6,7 +6,9 @@
 use glam::Vec3;
 
 use super::lanes::{LANES, Lanes, Points};
-use super::paint::{Block, Canvas, Model, ROWS, SegmentSpec, Thin, border_width, segment};
+use super::paint::{
+    Block, Canvas, Model, Passage, ROWS, Revision, SegmentSpec, border_width, segment,
+};
 use super::profile::Profile;
 use super::shape::{Field, Near, Places};
 use super::torso_belly::{self, Kidneys};
@@ -130,7 +132,7 @@ pub(super) struct Torso {
     kidneys: Kidneys,
     belly_arteries: Field,
     belly_veins: Field,
-    thin: Thin,
+    revision: Revision,
 }
 
 /// What lies between the lungs.
@@ -169,12 +171,12 @@ fn mediastinum() -> Field {
 }
 
 impl Torso {
-    pub(super) fn new(thin: Thin) -> Self {
+    pub(super) fn new(revision: Revision) -> Self {
         let cavity = torso_frame::cavity();
         let (ribs, cartilages) = torso_frame::ribs(&cavity);
         let [lung_bronchi, lung_arteries, lung_veins] = torso_chest::lung_trees();
-        let (chest_arteries, chest_veins) = torso_chest::vessels(thin);
-        let (belly_arteries, belly_veins) = torso_belly::vessels(thin);
+        let (chest_arteries, chest_veins) = torso_chest::vessels(revision);
+        let (belly_arteries, belly_veins) = torso_belly::vessels(revision);
         let colon = torso_belly::colon();
         let outside = Outside::new();
         let bowel = torso_belly::small_bowel(&cavity);
@@ -182,18 +184,18 @@ impl Torso {
             relief: outside.muscle_relief(),
             sheets: outside.sheets(),
             deep_muscles: torso_wall::deep_muscles(),
-            spine: torso_frame::spine(thin),
+            spine: torso_frame::spine(revision),
             sternum: torso_frame::sternum(&cavity),
             clavicles: torso_frame::clavicles(),
             scapulae: torso_frame::scapulae(),
             humeri: torso_frame::humeri(),
             pelvis: torso_frame::pelvis(),
             mediastinum: mediastinum(),
-            heart: torso_chest::heart(thin),
+            heart: torso_chest::heart(revision),
             windpipe: torso_chest::windpipe(0.0),
-            windpipe_air: torso_chest::windpipe(match thin {
-                Thin::AsModelled => 2.4,
-                Thin::Whole => 3.0,
+            windpipe_air: torso_chest::windpipe(match revision {
+                Revision::First => 2.4,
+                Revision::Second => 3.0,
             }),
             gullet: torso_chest::gullet(),
             glands: torso_chest::glands(),
@@ -209,7 +211,7 @@ impl Torso {
             ],
             pancreas: torso_belly::pancreas(),
             spleen: torso_belly::spleen(),
-            kidneys: torso_belly::kidneys(thin),
+            kidneys: torso_belly::kidneys(revision),
             trunk: outside.trunk,
             skin: outside.skin,
             cavity,
@@ -223,9 +225,9 @@ impl Torso {
             colon,
             belly_arteries,
             belly_veins,
-            thin,
+            revision,
         };
-        if thin == Thin::Whole {
+        if revision == Revision::Second {
             torso.grow_lung_trees();
         }
         torso
@@ -333,6 +335,10 @@ impl Model for Torso {
         [-1000.0, 1400.0]
     }
 
+    fn passage(&self) -> Passage {
+        self.revision.passage()
+    }
+
     fn paint(&self, block: &Block, out: &mut Canvas) {
         let width = border_width(block.spacing);
         let soft = 0.55 * width;
@@ -353,7 +359,7 @@ impl Model for Torso {
             Field::near(field, block, band + width, &mut near);
             Layer(near)
         };
-        let least = self.thin.least_mm(block, self.bounds_mm());
+        let least = self.revision.least_mm(block, self.bounds_mm());
         // What is thinner than a voxel in places.
         let cord = |field, band: f32| {
             let mut near = Near::default();
@@ -403,9 +409,9 @@ impl Model for Torso {
         ];
         // Trees cut off by the lungs, and those that go on to their roots: the bronchi lie before the vessels there.
         type Tubes<'a> = &'a [(Layer<'a>, f32, Tissue)];
-        let (cut_off, behind, before): (Tubes<'_>, Tubes<'_>, Tubes<'_>) = match self.thin {
-            Thin::AsModelled => (&lung_trees, &[], &[]),
-            Thin::Whole => (&[], &lung_trees[1..], &lung_trees[..1]),
+        let (cut_off, behind, before): (Tubes<'_>, Tubes<'_>, Tubes<'_>) = match self.revision {
+            Revision::First => (&lung_trees, &[], &[]),
+            Revision::Second => (&[], &lung_trees[1..], &lung_trees[..1]),
         };
         let dome = near(&self.dome, 30.0);
         let [liver, band, gallbladder, pancreas, spleen] = [
@@ -620,7 +626,7 @@ impl Model for Torso {
                     lay(heart_right.or_far(&p), 150.0, Tissue::Veins);
                     lay(heart_left.or_far(&p), 220.0, Tissue::Arteries);
                 }
-                if let Some(d) = ureters.filter(|_| self.thin == Thin::Whole) {
+                if let Some(d) = ureters.filter(|_| self.revision == Revision::Second) {
                     lay(d.max(c), 60.0, Tissue::Ureters);
                 }
                 for (vessel, value, tissue) in behind.iter().chain(&vessels).chain(before) {
@@ -636,7 +642,7 @@ impl Model for Torso {
                 }
                 if let Some(d) = windpipe.at(&p) {
                     // Hoops of cartilage, open behind.
-                    let is_whole = self.thin == Thin::Whole;
+                    let is_whole = self.revision == Revision::Second;
                     let share = if is_whole { 0.5 } else { 0.6 };
                     let hoop = (z * (1.0 / 7.5)).rem_euclid(1.0) < share && !(is_whole && z < 86.0);
                     let ring = if hoop {
@@ -668,7 +674,7 @@ impl Model for Torso {
                         // Ribs and shoulder blades lie under muscle, the others come up to the skin.
                         let covered = matches!(tissue, Tissue::Ribs | Tissue::Scapulae);
                         let mut d = d.max(if covered { m + 2.6 } else { s + 4.0 });
-                        if self.thin == Thin::Whole && matches!(tissue, Tissue::Ribs) {
+                        if self.revision == Revision::Second && matches!(tissue, Tissue::Ribs) {
                             // The first rib has a groove for the artery of the arm.
                             d = d.max(-chest_arteries.or_far(&p));
                         }

@@ -2,7 +2,7 @@
 //!
 //! Millimetres as in `torso`; +x is the patient's right.
 
-use super::paint::Thin;
+use super::paint::Revision;
 use super::profile::Profile;
 use super::random::Random;
 use super::shape::{Field, Knot, at, ball, capsule, curve, ellipsoid, strap};
@@ -166,7 +166,7 @@ pub(super) struct Kidneys {
     pub(super) adrenals: Field,
 }
 
-pub(super) fn kidneys(thin: Thin) -> Kidneys {
+pub(super) fn kidneys(revision: Revision) -> Kidneys {
     let (mut body, mut pyramids, mut sinus) =
         (Field::default(), Field::default(), Field::default());
     let (mut ureters, mut adrenals) = (Field::default(), Field::default());
@@ -204,14 +204,14 @@ pub(super) fn kidneys(thin: Thin) -> Kidneys {
             ([x - side * 29.0, y + 9.0, z - 18.0], 3.6),
             ([side * 38.0, -2.0, z - 56.0], 2.8),
         ];
-        knots.extend(match thin {
-            Thin::AsModelled => vec![
+        knots.extend(match revision {
+            Revision::First => vec![
                 ([side * 34.0, 12.0, -212.0], 2.8),
                 ([side * 40.0, 4.0, -252.0], 2.8),
                 ([side * 36.0, -8.0, -300.0], 2.8),
             ],
             // Before the vessels of the pelvis.
-            Thin::Whole => vec![
+            Revision::Second => vec![
                 ([side * 35.0, 12.0, -205.0], 2.8),
                 ([side * 33.0, 20.0, -236.0], 2.8),
                 ([side * 34.0, 20.0, -258.0], 2.8),
@@ -371,7 +371,7 @@ pub(super) fn tube(knots: &[Knot], inset: f32) -> Field {
 }
 
 /// Vessels of the belly: arteries, veins, and the vein of the liver with its branches.
-pub(super) fn vessels(thin: Thin) -> (Field, Field) {
+pub(super) fn vessels(revision: Revision) -> (Field, Field) {
     let (mut arteries, mut veins) = (Field::default(), Field::default());
     let red = |f: &mut Field, knots: &[Knot]| f.join_all(1.5, curve(knots));
     // Trunk to liver, spleen, stomach.
@@ -431,9 +431,9 @@ pub(super) fn vessels(thin: Thin) -> (Field, Field) {
         ],
     );
     // Whole, it runs before the spine.
-    let before_spine = match thin {
-        Thin::AsModelled => None,
-        Thin::Whole => Some(([16.0, -11.0, -120.0], 3.6)),
+    let before_spine = match revision {
+        Revision::First => None,
+        Revision::Second => Some(([16.0, -11.0, -120.0], 3.6)),
     };
     let right: Vec<Knot> = [([0.0, -10.0, -116.0], 3.8)]
         .into_iter()

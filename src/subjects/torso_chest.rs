@@ -5,7 +5,7 @@
 use glam::Vec3;
 
 use super::lanes::{LANES, Lanes, Points};
-use super::paint::Thin;
+use super::paint::Revision;
 use super::random::Random;
 use super::shape::{Field, Knot, Shape, along_curve, capsule, chain, curve, ellipsoid};
 
@@ -22,7 +22,7 @@ pub(super) struct Heart {
 
 const LV: ([f32; 3], [f32; 3]) = ([-20.0, 12.0, 42.0], [-72.0, 50.0, 4.0]);
 
-pub(super) fn heart(thin: Thin) -> Heart {
+pub(super) fn heart(revision: Revision) -> Heart {
     let mut body = Field::default();
     // Rooms behind first: left atrium, right atrium, then the chambers.
     body.join(0.0, ellipsoid([-6.0, -16.0, 52.0], [38.0, 22.0, 27.0]));
@@ -73,9 +73,9 @@ pub(super) fn heart(thin: Thin) -> Heart {
     grooves.join_all(0.0, curve(&front.map(|(p, r)| (on(p, -1.0), r * 0.6))));
     let mut arteries = Field::default();
     // Where arteries and veins cross, the arteries lie farther out.
-    let [arteries_mm, veins_mm] = match thin {
-        Thin::AsModelled => [0.8, 0.8],
-        Thin::Whole => [1.8, -1.8],
+    let [arteries_mm, veins_mm] = match revision {
+        Revision::First => [0.8, 0.8],
+        Revision::Second => [1.8, -1.8],
     };
     let mut add = |knots: &[Knot]| {
         let laid: Vec<Knot> = knots
@@ -114,7 +114,7 @@ pub(super) fn heart(thin: Thin) -> Heart {
         ([-56.0, -8.0, 40.0], 1.9),
         ([-60.0, 10.0, 12.0], 1.6),
     ]);
-    if thin == Thin::Whole {
+    if revision == Revision::Second {
         // From the great artery, and from one to the next.
         let start = |end: [f32; 3], r: f32| (on(end, arteries_mm), r);
         for joint in [
@@ -148,7 +148,7 @@ pub(super) fn heart(thin: Thin) -> Heart {
     .to_vec();
     veins.join_all(0.0, curve(&laid[..2]));
     veins.join_all(0.0, curve(&laid[2..]));
-    if thin == Thin::Whole {
+    if revision == Revision::Second {
         let between = along_curve(&[
             ([-52.0, 64.0, 40.0], 2.2),
             ([-62.0, 30.0, 58.0], 2.6),
@@ -367,7 +367,7 @@ pub(super) fn lung_trees() -> [Field; 3] {
 }
 
 /// Arteries and veins of the chest, the neck and along the spine.
-pub(super) fn vessels(thin: Thin) -> (Field, Field) {
+pub(super) fn vessels(revision: Revision) -> (Field, Field) {
     let (mut arteries, mut veins) = (Field::default(), Field::default());
     let tube = |f: &mut Field, knots: &[Knot]| f.join_all(2.0, curve(knots));
     // The great artery: root, arch, down the spine, parting before L4.
@@ -418,7 +418,7 @@ pub(super) fn vessels(thin: Thin) -> (Field, Field) {
             ([side * 28.0, 2.0, 164.0], 5.2),
             ([side * 54.0, 6.0, 168.0], 5.0),
         ];
-        if thin == Thin::Whole {
+        if revision == Revision::Second {
             // Over the first rib, or through it.
             arm.push(([side * 72.0, 7.0, 160.0], 4.8));
         }
@@ -443,7 +443,7 @@ pub(super) fn vessels(thin: Thin) -> (Field, Field) {
                 ([side * 27.0, 10.0, 240.0], 4.2),
             ],
         );
-        if thin == Thin::Whole {
+        if revision == Revision::Second {
             // Behind the breastbone, from that under the collar bone.
             tube(
                 &mut arteries,

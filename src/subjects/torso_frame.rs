@@ -5,7 +5,7 @@
 
 use glam::Vec3;
 
-use super::paint::Thin;
+use super::paint::Revision;
 use super::profile::{Profile, Ring};
 use super::shape::{
     Field, Knot, Shape, ball, capsule, cuboid, curve, disc, ellipsoid, strap, turn_deg,
@@ -106,7 +106,7 @@ pub(super) struct Spine {
     pub(super) roots: Field,
 }
 
-pub(super) fn spine(thin: Thin) -> Spine {
+pub(super) fn spine(revision: Revision) -> Spine {
     let (mut bones, mut discs) = (Field::default(), Field::default());
     let mut roots = Field::default();
     let mut canal_knots: Vec<Knot> = Vec::new();
@@ -234,7 +234,7 @@ pub(super) fn spine(thin: Thin) -> Spine {
         // The root leaves between this vertebra and the next.
         let out = middle + 1.0;
         let y = spine_y(out);
-        if thin == Thin::Whole {
+        if revision == Revision::Second {
             // Out of the cord, however thin it is there.
             let inner = [1.0, y - canal_back, out + 10.0];
             let outer = [4.0, y - canal_back, out + 8.0];

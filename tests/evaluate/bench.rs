@@ -2,6 +2,7 @@
 
 use crate::gpu::gpu;
 use crate::reference::{self, Placed};
+use crate::scatter::Random;
 use fabrica::data::Resources;
 use fabrica::document::PlacedTemplate;
 use fabrica::render::gpu_types::{Subject, Templates};
@@ -18,14 +19,20 @@ use std::fmt::Write as _;
 pub(crate) const LIGHT: DVec3 = DVec3::new(0.48, -0.64, 0.6);
 
 /// The numbers of methods.wgsl, with the names of table 6.2.
-pub(crate) const METHODS: [(u32, &str); 6] = [
+pub(crate) const METHODS: [(u32, &str); 7] = [
     (0, "unlit"),
     (1, "Jacobian"),
     (5, "Jacobian, Sobel at rest"),
     (2, "central differences on the fly"),
     (3, "Sobel on the fly"),
     (4, "dot product"),
+    (QUICK, "Jacobian, two reaches at rest"),
 ];
+
+/// The gradient at rest of a finished picture: of a B-spline.
+pub(crate) const FINE: u32 = 1;
+/// That of a picture of what moves, and of all pictures before: the mean of central differences of two reaches.
+pub(crate) const QUICK: u32 = 6;
 
 /// The exact map at points, by the program's WGSL.
 pub(crate) fn probe(list: &[PlacedTemplate], points: &[Vec3]) -> Vec<Sample> {
@@ -88,7 +95,18 @@ impl Object {
 /// How softly a scanner sees an edge: value = 1 / (1 + exp(distance / this)), voxels.
 const SOFTNESS: f64 = 0.8;
 
-/// An analytic object as a scan of n³ voxels over the unit cube, on the GPU in the program's own format.
+/// How a scanner takes an object into voxels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scanner {
+    /// Voxels along x and y.
+    pub(crate) n: u32,
+    /// How many times as thick as wide a slice is. Its values are means over its thickness.
+    pub(crate) thick: u32,
+    /// Width of the even noise of values, which are 0 outside and 1 inside.
+    pub(crate) noise: f64,
+}
+
+/// An analytic object as a scan of the unit cube, on the GPU in the program's own format.
 pub(crate) struct Scan {
     uniform: wgpu::Buffer,
     texture: wgpu::TextureView,
@@ -97,17 +115,38 @@ pub(crate) struct Scan {
 }
 
 impl Scan {
+    /// By cubes of voxels, without noise.
     pub(crate) fn new(object: Object, n: u32) -> Self {
+        let (thick, noise) = (1, 0.0);
+        Self::by(object, Scanner { n, thick, noise })
+    }
+
+    pub(crate) fn by(object: Object, scanner: Scanner) -> Self {
         let gpu = gpu();
+        let n = scanner.n;
+        let slices = n / scanner.thick;
         let spacing = 1.0 / f64::from(n);
         let centre = |i: u32| (f64::from(i) + 0.5) * spacing - 0.5;
-        let mut voxels = Vec::with_capacity((n * n * n) as usize);
-        for i in 0..n * n * n {
-            let at = DVec3::new(centre(i % n), centre(i / n % n), centre(i / n / n));
-            let value = 1.0 / (1.0 + (object.distance(at) / spacing / SOFTNESS).exp());
-            voxels.push(f16::from_f64(value).to_bits());
+        let value = |at: DVec3| 1.0 / (1.0 + (object.distance(at) / spacing / SOFTNESS).exp());
+        let mut random = Random(0x9E37_79B9_7F4A_7C15);
+        let mut voxels = Vec::with_capacity((n * n * slices) as usize);
+        for i in 0..n * n * slices {
+            let column = (centre(i % n), centre(i / n % n));
+            let first = i / n / n * scanner.thick;
+            let layers = first..first + scanner.thick;
+            let sum: f64 = layers
+                .map(|layer| value(DVec3::new(column.0, column.1, centre(layer))))
+                .sum();
+            let noise = scanner.noise * (f64::from(random.unit()) - 0.5);
+            let mean = sum / f64::from(scanner.thick);
+            voxels.push(f16::from_f64(mean + noise).to_bits());
         }
-        let texture = texture(wgpu::TextureFormat::R16Float, wgpu::TextureDimension::D3, n);
+        let dims = [n, n, slices];
+        let texture = texture(
+            wgpu::TextureFormat::R16Float,
+            wgpu::TextureDimension::D3,
+            dims,
+        );
         gpu.queue.write_texture(
             texture.as_image_copy(),
             bytemuck::cast_slice(&voxels),
@@ -120,7 +159,7 @@ impl Scan {
         );
         let uniform = Subject {
             texture_from_rest: Affine3A::from_translation(Vec3::splat(0.5)).into(),
-            dims: [n as f32, n as f32, n as f32, 0.0],
+            dims: [n as f32, n as f32, slices as f32, 0.0],
             texture_end: [1.0; 4],
             value_range: 1.0,
             detail: spacing as f32,
@@ -139,21 +178,17 @@ impl Scan {
     }
 }
 
-/// A square or cube of n texels a side.
+/// A texture of so many texels.
 fn texture(
     format: wgpu::TextureFormat,
     dimension: wgpu::TextureDimension,
-    n: u32,
+    [width, height, depth_or_array_layers]: [u32; 3],
 ) -> wgpu::Texture {
-    let depth_or_array_layers = match dimension {
-        wgpu::TextureDimension::D3 => n,
-        _ => 1,
-    };
     gpu().device.create_texture(&wgpu::TextureDescriptor {
         label: Some("texels"),
         size: wgpu::Extent3d {
-            width: n,
-            height: n,
+            width,
+            height,
             depth_or_array_layers,
         },
         mip_level_count: 1,
@@ -229,15 +264,19 @@ impl<'a> Method<'a> {
             fields: texture(
                 wgpu::TextureFormat::Rgba16Float,
                 wgpu::TextureDimension::D3,
-                1,
+                [1; 3],
             )
             .create_view(&Default::default()),
-            carvers: texture(wgpu::TextureFormat::R32Uint, wgpu::TextureDimension::D2, 1)
-                .create_view(&Default::default()),
+            carvers: texture(
+                wgpu::TextureFormat::R32Uint,
+                wgpu::TextureDimension::D2,
+                [1; 3],
+            )
+            .create_view(&Default::default()),
             sweeps: texture(
                 wgpu::TextureFormat::Rgba32Float,
                 wgpu::TextureDimension::D2,
-                1,
+                [1; 3],
             )
             .create_view(&Default::default()),
         }

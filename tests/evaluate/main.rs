@@ -106,9 +106,28 @@ fn the_jacobian_gives_the_best_normals() {
             "{name}: {errors:?}"
         );
         assert!(own < 1.3 * mean("Sobel on the fly"), "{name}: {errors:?}");
-        // What the program takes at rest reaches farther, so that no voxels show; that rounds curved surfaces.
-        assert!(mean("Jacobian") < 3.5, "{name}: {errors:?}");
+        // What the program takes at rest is as good; what it takes while something moves reaches farther and rounds
+        // curved surfaces.
+        assert!(mean("Jacobian") < 1.1 * own, "{name}: {errors:?}");
+        assert!(
+            mean("Jacobian, two reaches at rest") < 3.5,
+            "{name}: {errors:?}"
+        );
     }
+}
+
+#[test]
+fn finished_pictures_have_smoother_normals() {
+    let surface = Surface::new(report::BALL, &[], 1.0 / 80.0, 2_000);
+    let angles = report::SCANNERS.map(|(name, scanner)| {
+        let scan = Scan::by(report::BALL, scanner);
+        let of = |method| surface.angles_at_rest(&scan, method);
+        let angles = [of(bench::QUICK), of(bench::FINE)];
+        println!("{name}: {angles:.2?}");
+        angles
+    });
+    let [[quick, fine], ..] = angles;
+    assert!(fine[0] < 0.5 * quick[0] && fine[1] < 0.5 * quick[1]);
 }
 
 #[test]

@@ -16,6 +16,7 @@ const CENTRAL: u32 = 2u;
 const SOBEL: u32 = 3u;
 const DOT_PRODUCT: u32 = 4u;
 const JACOBIAN_OF_SOBEL: u32 = 5u;
+const JACOBIAN_QUICK: u32 = 6u;
 /// Which of these methods is evaluated.
 override method: u32 = 1u;
 /// Offset of finite differences of the map, subject units; as in the program.
@@ -52,7 +53,7 @@ fn by_jacobian(pos: vec3f) -> vec3f {
     if method == JACOBIAN_OF_SOBEL {
         grad = sobel_at_rest(uvw);
     } else {
-        grad = gradient_at(uvw);
+        grad = gradient_by(uvw, method == JACOBIAN);
     }
     var carried = vec3f(0.0);
     for (var i = 0u; i < 3u; i++) {
@@ -93,7 +94,7 @@ fn by_dot_product(pos: vec3f) -> f32 {
 fn evaluate_at(pos: vec3f) -> vec4f {
     var slope = vec3f(0.0);
     switch method {
-        case JACOBIAN, JACOBIAN_OF_SOBEL: {
+        case JACOBIAN, JACOBIAN_OF_SOBEL, JACOBIAN_QUICK: {
             slope = by_jacobian(pos);
         }
         case CENTRAL: {

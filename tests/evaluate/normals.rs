@@ -77,6 +77,28 @@ impl Surface {
         Self { places }
     }
 
+    /// Mean angle between normals that were found and the right ones and that which one place in a hundred exceeds,
+    /// degrees; none of normals that there are not.
+    fn angles(&self, found: &[(DVec3, f64)]) -> Option<[f64; 2]> {
+        let found = self.places.iter().zip(found);
+        let mut angles: Vec<f64> = found
+            .filter(|(_, (normal, _))| normal.length() > 0.5)
+            .map(|((_, right), (normal, _))| right.angle_between(*normal).to_degrees())
+            .collect();
+        angles.sort_by(f64::total_cmp);
+        (!angles.is_empty()).then(|| {
+            let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+            [mean, angles[angles.len() * 99 / 100]]
+        })
+    }
+
+    /// [`Surface::angles`] of a method on a scan at rest.
+    pub(crate) fn angles_at_rest(&self, scan: &Scan, method: u32) -> [f64; 2] {
+        let points: Vec<_> = self.places.iter().map(|p| p.0.as_vec3()).collect();
+        let found = Method::new(scan, &[], "normals", method).run(&points);
+        self.angles(&found).unwrap_or([f64::NAN; 2])
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.places.len()
     }
@@ -104,22 +126,15 @@ pub(crate) fn normal_errors(
         .iter()
         .map(|&(method, name)| {
             let found = Method::new(scan, list, "normals", method).run(&points);
-            let mut angles = Vec::new();
-            let mut square = 0.0;
-            for ((_, right), (normal, light)) in surface.places.iter().zip(&found) {
-                if normal.length() > 0.5 {
-                    angles.push(right.angle_between(*normal).to_degrees());
-                }
-                square += (light - right.dot(LIGHT).max(0.0)).powi(2);
-            }
-            angles.sort_by(f64::total_cmp);
-            let angle = (!angles.is_empty()).then(|| {
-                let mean = angles.iter().sum::<f64>() / angles.len() as f64;
-                [mean, angles[angles.len() * 99 / 100]]
-            });
+            let square: f64 = surface
+                .places
+                .iter()
+                .zip(&found)
+                .map(|((_, right), (_, light))| (light - right.dot(LIGHT).max(0.0)).powi(2))
+                .sum();
             NormalError {
                 name,
-                angle,
+                angle: surface.angles(&found),
                 light: (square / points.len() as f64).sqrt(),
             }
         })

@@ -40,7 +40,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         Templates { items, count, pool }
         Frame {
             subject_from_view, lens, size_px, jitter, first_step, occlusion_turn, bounds_min, bounds_max, step,
-            first_row, search_turns,
+            first_row, is_finished,
         }
         AskedRays { items }
         Subject {

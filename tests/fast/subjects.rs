@@ -237,11 +237,19 @@ fn the_bits_are_the_same_on_every_machine() {
 const SECOND: &[(&str, &str)] = &[
     (
         "hand",
-        "1b1ceb2dc16d83b8d7c00fe7ac6120bdfa1be7cb6e4bbbbedb31b6791a3786b8",
+        "2621bf76500d1ebde3ec35a49663c4023414e54cde769ae10771edba5e030044",
+    ),
+    (
+        "head",
+        "3039dfac4c8552aaed74a7469d0c147918b103120b76635203024c70468e9694",
+    ),
+    (
+        "knee",
+        "7cb9421a31ecd1d532d7f78a59f8b33de37a7533cb0a03d75b567fbe36b3ab70",
     ),
     (
         "torso",
-        "78675b06f560f5a7861b76f3b1aaf5eaa0c98d947eefd94d76e3840f3b63576b",
+        "4102b1d45f966b71f2115183a5ba16e6d8e22c3386f60959ca94b249681a1157",
     ),
 ];
 
@@ -305,6 +313,10 @@ fn vessels_nerves_and_airways_are_whole() {
             "hand",
             &[("arteries", 2), ("veins", 1), ("nerves", 2), ("tendons", 3)],
         ),
+        // Of the veins the outer jugulars run apart; the nerves of the eyes cross.
+        ("head", &[("arteries", 1), ("veins", 3), ("nerves", 7)]),
+        // The long vein under the skin runs apart.
+        ("knee", &[("arteries", 1), ("veins", 2), ("nerves", 1)]),
     ] {
         let held = make_newest(subject, subjects::FINE_RESOLUTION);
         let first = make(subject, subjects::FINE_RESOLUTION);
@@ -320,7 +332,7 @@ fn vessels_nerves_and_airways_are_whole() {
             broken += usize::from(whole(&first).len() > *number);
         }
         assert!(
-            broken > 2,
+            broken > 1,
             "{subject}: of the first revision {broken} segments are broken"
         );
     }

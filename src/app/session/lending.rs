@@ -91,7 +91,7 @@ impl Session {
 
     /// Keeps the document that is about to be replaced among the recent ones, unless there is nothing in it.
     fn keep_left(&mut self) {
-        if *self.document() == Document::new() {
+        if self.document().is_blank() {
             return;
         }
         let camera = match self.step() {
@@ -105,7 +105,7 @@ impl Session {
     pub fn keep_earlier(&mut self, tail: String) {
         let document = link::decode(&tail).map(|link| link.document);
         let is_other =
-            |document: Document| document != self.document_as_seen() && document != Document::new();
+            |document: Document| document != self.document_as_seen() && !document.is_blank();
         if document.is_ok_and(is_other) {
             self.keep_recent(tail);
         }

@@ -156,7 +156,7 @@ impl Session {
             Command::Open => self.effect(Effect::OpenFile),
             Command::New => {
                 self.keep_work();
-                self.start_document(Document::new(), "New document".to_owned());
+                self.start_document(Document::fresh(), "New document".to_owned());
                 self.load_subject();
             }
             Command::CopyLink => self.copy_link(),

@@ -12,9 +12,6 @@ const STEP: f32 = 0.75;
 const LONGEST_STEP_VOXELS: f32 = 1.25;
 const LONGEST_STEP: f32 = 0.009;
 
-/// Halvings of a step in which a cut parts nothing from nothing: the rims of flaps, which are thinner than a step.
-const SEARCH_TURNS: u32 = 5;
-
 /// The longest step that any ray takes through a subject whose finest detail has this length.
 pub(crate) fn longest_step(detail: f32) -> f32 {
     (LONGEST_STEP_VOXELS * detail).max(LONGEST_STEP)
@@ -56,16 +53,17 @@ pub(crate) fn frame_of(
         bounds_max: max.extend(0.0).to_array(),
         step,
         first_row: 0.0,
-        search_turns: SEARCH_TURNS,
+        is_finished: 1,
         padding: 0,
     }
 }
 
 impl Frame {
-    /// For a picture of what moves: rims of flaps may have gaps where they are thinner than a step.
+    /// For a quick picture of what moves: rims of flaps may have gaps where they are thinner than a step, smooth
+    /// surfaces show layers of voxels, and shadows are grainy.
     pub(crate) fn of_what_moves(self) -> Frame {
         Frame {
-            search_turns: 0,
+            is_finished: 0,
             ..self
         }
     }

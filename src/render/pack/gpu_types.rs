@@ -522,8 +522,8 @@ pub struct Frame {
     pub step: f32,
     /// Row of the whole picture that the target begins with.
     pub first_row: f32,
-    /// Halvings of a step that a cut between nothing and nothing lies in; 0: such cuts are not sought.
-    pub search_turns: u32,
+    /// 1 in a finished picture, 0 in a quick one of what moves.
+    pub is_finished: u32,
     /// To the end of the row.
     pub padding: u32,
 }
