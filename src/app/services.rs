@@ -61,6 +61,8 @@ pub trait Services {
     fn save_mesh(&mut self, want: &Want, mesh: MeshToSave) {
         _ = (want, mesh);
     }
+    /// No clay is shown any more: gives back what the strokes of the last one have left.
+    fn let_clay_go(&mut self) {}
     /// Puts text on the clipboard; [`Message::Copied`] follows.
     fn copy_text(&mut self, text: String);
     /// Reads the clipboard; [`Message::Pasted`] follows.

@@ -708,6 +708,10 @@ impl Services for PageServices {
         }
     }
 
+    fn let_clay_go(&mut self) {
+        run::end_resting();
+    }
+
     fn copy_text(&mut self, text: String) {
         let services = self.clone();
         let clipboard = window()

@@ -219,6 +219,28 @@ fn a_clay_is_begun_from_the_list_of_subjects() {
     window.press(Key::Escape);
     window.undo();
     assert!(window.document().to_json().contains("cube"));
+    assert_eq!(window.log.0.borrow().clays_gone, 1);
+}
+
+/// What the strokes of a clay have left is given back once there is none, also where the next subject cannot be had.
+#[test]
+fn a_clay_is_let_go_with_its_document() {
+    let absent = format!(r#"{{ "sha256": "{}" }}"#, "0".repeat(64));
+    let documents = [
+        (r#"{ "clay": { "detail": 0.06 } }"#, 0),
+        (r#"{ "clay": { "from": { "shape": "cube" } } }"#, 0),
+        (r#"{ "builtin": "cube" }"#, 1),
+        (r#"{ "clay": { "detail": 0.06 } }"#, 1),
+        (&absent, 2),
+    ];
+    let mut window = Window::open(DESK, r#"{ "fabrica": 1 }"#);
+    for (subject, gone) in documents {
+        let text = format!(r#"{{ "fabrica": 1, "subject": {subject} }}"#);
+        let message = Message::OpenText { text };
+        window.log.0.borrow_mut().queue.push(message);
+        window.steps(3);
+        assert_eq!(window.log.0.borrow().clays_gone, gone, "{subject}");
+    }
 }
 
 #[test]
