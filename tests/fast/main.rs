@@ -37,6 +37,7 @@ mod recipes;
 #[path = "../support/scans.rs"]
 mod scans;
 mod shaders;
+mod strokes;
 mod subjects;
 #[path = "../support/surfaces.rs"]
 mod surfaces;

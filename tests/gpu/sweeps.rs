@@ -169,6 +169,40 @@ fn random_sweeps_are_the_flow_of_the_reference() {
     assert!(off_aim < asked / 50, "{off_aim} of {asked} miss the aim");
 }
 
+/// A tool of a shape that this version does not have is kept and named; the others act as if they were alone.
+#[test]
+fn a_tool_of_an_unknown_shape_moves_nothing() {
+    let path = json!([[0.5, 0.5, 0.2], [0.5, 0.5, 0.6]]);
+    let cloud = json!({ "shape": "cloud", "density": [3], "path": path });
+    let ball = json!({ "radius": 0.15, "path": [[0.2, 0.5, 0.4], [0.5, 0.5, 0.5]] });
+    let of = |tools: Value| {
+        let templates =
+            json!([{ "kind": "sweep", "size": [1, 1, 1], "params": { "tools": tools } }]);
+        let value =
+            json!({ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": templates });
+        Document::from_value(value).expect("a document")
+    };
+    let [alone, beside, without] = [json!([cloud]), json!([cloud, ball]), json!([ball])].map(of);
+    for document in [&alone, &beside] {
+        let said: Vec<String> = document.notices().iter().map(ToString::to_string).collect();
+        let is_named = |line: &String| line.contains("/tools/0/shape") && line.contains("cloud");
+        assert!(said.len() == 1 && is_named(&said[0]), "{said:?}");
+        let link = fabrica::link::encode(document);
+        let opened = fabrica::link::decode(&link).expect("a document").document;
+        let text: Value = serde_json::from_str(&opened.to_json()).expect("its own text");
+        assert_eq!(text["templates"][0]["params"]["tools"][0], cloud);
+    }
+    let mut random = Random(0xc10d);
+    let points: Vec<Vec3> = (0..500).map(|_| random.vector(-0.5, 0.5)).collect();
+    let [alone, beside, without] = [&alone, &beside, &without].map(|of| ask(of, &points));
+    let is_still = |(point, found): (&Vec3, &Sample)| found.pos_in_rest == *point;
+    assert!(points.iter().zip(&alone).all(is_still));
+    assert!(!points.iter().zip(&without).all(is_still));
+    for (one, other) in beside.iter().zip(&without) {
+        assert_eq!(one.pos_in_rest, other.pos_in_rest);
+    }
+}
+
 /// Tools and images whose reaches stay apart are integrated each by itself, those that meet together: the flow is the
 /// same.
 #[test]
