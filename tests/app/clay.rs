@@ -497,6 +497,41 @@ fn a_stroke_is_moved_in_the_list() {
     assert_eq!(window.document().to_json_compact(), before);
 }
 
+/// A replay that is stopped midway: the document has all of its strokes, and what undo brings is shown.
+#[test]
+fn a_stopped_replay_loses_nothing() {
+    let json = PULLED.replace("\"strokes\": 0", "\"strokes\": 2");
+    let mut window = Window::open(DESK, &json);
+    window.settle();
+    let (before, shown) = (window.document().to_json_compact(), window.tip());
+    window.click("Stroke 1");
+    window.log.0.borrow_mut().is_slow = true;
+    window.click("Move stroke 1 up: it acts later");
+    window.steps(3);
+    let moved = window.document().to_json_compact();
+    assert_ne!(moved, before);
+    window.click("Cancel loading");
+    window.steps(5);
+    assert_eq!(
+        window.document().to_json_compact(),
+        moved,
+        "all strokes are there"
+    );
+    window.log.0.borrow_mut().is_slow = false;
+    window.settle();
+    assert_eq!(window.strokes_asked(), [2, 2], "it is not asked for again");
+    window.undo();
+    window.settle();
+    assert_eq!(window.document().to_json_compact(), before);
+    assert!((window.tip() - shown).abs() < 0.5, "it is shown as it was");
+    assert!(window.harness.state().is_at_rest());
+    // And redone it is what it would have been.
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.settle();
+    assert_eq!(window.document().to_json_compact(), moved);
+    assert_eq!(window.strokes_asked().last(), Some(&2));
+}
+
 #[test]
 fn strokes_are_laid_down_and_done_together() {
     let mut window = Window::with_clay_tool(0);

@@ -36,6 +36,8 @@ mod prose;
 mod recipes;
 #[path = "../support/scans.rs"]
 mod scans;
+#[path = "../support/scatter.rs"]
+mod scatter;
 mod shaders;
 mod strokes;
 mod subjects;
