@@ -23,6 +23,8 @@ mod load;
 mod load_dicom;
 mod load_formats;
 mod load_hostile;
+#[path = "../support/long.rs"]
+mod long;
 #[cfg(target_os = "linux")]
 #[path = "../support/memory.rs"]
 mod memory;

@@ -169,6 +169,49 @@ fn random_sweeps_are_the_flow_of_the_reference() {
     assert!(off_aim < asked / 50, "{off_aim} of {asked} miss the aim");
 }
 
+/// What the reference carries forward from a place, the probe brings back to it.
+#[test]
+fn what_was_carried_forward_comes_back() {
+    let mut random = Random(0xf0_0019);
+    let (mut moved, mut off_aim) = (0, 0);
+    let count = long_or(1000, 60);
+    for round in 0..10 {
+        let mut templates = sweeps(&mut random, round % 6);
+        for template in templates.as_array_mut().expect("a list") {
+            // Displacements that are summed have no map forward.
+            template.as_object_mut().expect("a template").remove("mode");
+        }
+        let document = document(templates);
+        let reference = Sweep::all(&serde_json::from_str(&document.to_json()).expect("its text"));
+        let placed = &document.illustration().templates;
+        let places: Vec<Vec3> = (0..count)
+            .map(|_| {
+                let of = &placed[random.index(placed.len())];
+                of.subject_from_template(random.vector(-0.1, 1.1))
+            })
+            .collect();
+        let there = places.iter().map(|p| target(&reference, p.as_dvec3()));
+        let there: Vec<Vec3> = there.map(|p| p.as_vec3()).collect();
+        for ((place, at), found) in places.iter().zip(&there).zip(ask(&document, &there)) {
+            let mut off = f64::from(found.pos_in_rest.distance(*place));
+            if off > AIM {
+                off /= stretch(&reference, at.as_dvec3()).max(1.0);
+            }
+            assert!(
+                off < BOUND,
+                "round {round}: {place} went to {at}, {found:?}"
+            );
+            off_aim += usize::from(off > AIM);
+            moved += usize::from(at.distance(*place) > 0.01);
+        }
+    }
+    println!(
+        "{moved} of {} points moved, {off_aim} off by more than {AIM}",
+        10 * count
+    );
+    assert!(moved > 2 * count && off_aim * 50 < 10 * count);
+}
+
 /// A tool of a shape that this version does not have is kept and named; the others act as if they were alone.
 #[test]
 fn a_tool_of_an_unknown_shape_moves_nothing() {
