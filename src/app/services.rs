@@ -85,6 +85,11 @@ pub trait Services {
     fn has_fingers(&self) -> bool {
         false
     }
+    /// How hard a pen presses, 0 to 1, where the surroundings tell it beside the touches and the mouse that the window
+    /// hears of; `None` while none does.
+    fn pen(&self) -> Option<f32> {
+        None
+    }
     /// True if the reader has asked for high contrast everywhere.
     fn wants_contrast(&self) -> bool {
         false

@@ -481,6 +481,7 @@ impl App {
         }
         self.take_messages();
         self.session.is_reading = self.services.is_reading();
+        self.session.pen = self.services.pen();
         self.follow_resources();
         self.advance_tissue(ui);
         if self.session.advance(now) || self.bending.is_easing() {
