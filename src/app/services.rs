@@ -61,6 +61,8 @@ pub trait Services {
     fn save_mesh(&mut self, want: &Want, mesh: MeshToSave) {
         _ = (want, mesh);
     }
+    /// No clay is shown any more: gives back what the strokes of the last one have left.
+    fn let_clay_go(&mut self) {}
     /// Puts text on the clipboard; [`Message::Copied`] follows.
     fn copy_text(&mut self, text: String);
     /// Reads the clipboard; [`Message::Pasted`] follows.
@@ -82,6 +84,11 @@ pub trait Services {
     /// True if fingers are what points first, whatever the window's width.
     fn has_fingers(&self) -> bool {
         false
+    }
+    /// How hard a pen presses, 0 to 1, where the surroundings tell it beside the touches and the mouse that the window
+    /// hears of; `None` while none does.
+    fn pen(&self) -> Option<f32> {
+        None
     }
     /// True if the reader has asked for high contrast everywhere.
     fn wants_contrast(&self) -> bool {

@@ -28,7 +28,7 @@ use crate::app::words::{self, Lang};
 use crate::assets::{Assets, Bending, SegmentationsExpected, TissueWork, Want};
 use crate::clay::Writing;
 use crate::data::{Resources, Site, SubjectBuilder, Surface};
-use crate::document::{Document, SegmentsRef};
+use crate::document::{Document, SegmentsRef, SubjectRef};
 use crate::load::LabelFile;
 use crate::render::{Clock, Gpu, RenderNotice};
 
@@ -84,6 +84,8 @@ pub struct App {
     pub(crate) incoming: SubjectBuilder,
     /// Files that documents wanted and that have arrived.
     pub(crate) assets: Assets,
+    /// The document's subject is a clay, as far as the shell knows.
+    has_clay: bool,
     /// The figure that is shown.
     pub(crate) bending: Bending,
     /// The picture beside the figure, of which places are taken over.
@@ -215,6 +217,7 @@ impl App {
             is_narrow: false,
             incoming: SubjectBuilder::default(),
             assets: Assets::default(),
+            has_clay: false,
             bending: Bending::default(),
             reference: ReferencePicture::default(),
             opened: 0,
@@ -326,6 +329,14 @@ impl App {
     pub fn run(&mut self, command: Command) {
         let effects = self.session.run(command, self.session.now);
         self.perform(effects);
+    }
+
+    /// Tells the shell once the document's subject is no clay any more.
+    fn let_clay_go(&mut self) {
+        let has_clay = matches!(self.session.shown().subject, SubjectRef::Clay(_));
+        if std::mem::replace(&mut self.has_clay, has_clay) && !has_clay {
+            self.services.let_clay_go();
+        }
     }
 
     // ------------------------------------------------------------------------------------------------ effects
@@ -470,6 +481,7 @@ impl App {
         }
         self.take_messages();
         self.session.is_reading = self.services.is_reading();
+        self.session.pen = self.services.pen();
         self.follow_resources();
         self.advance_tissue(ui);
         if self.session.advance(now) || self.bending.is_easing() {
@@ -483,6 +495,7 @@ impl App {
         }
         self.session.follow_clay();
         self.do_outside();
+        self.let_clay_go();
         self.session.is_alone = ui.input(|i| i.modifiers.shift);
         let mut commands = Vec::new();
         self.keys(ui, &mut commands);

@@ -427,6 +427,12 @@ fn at_the_limit_of_triangles_it_goes_on_without_splitting() {
     clay.strokes = vec![small, large.clone(), large];
     let shaping = shape(&clay);
     assert_eq!(shaping.full_since(), Some(1));
+    let said = format!(
+        "since stroke 2 the clay has {MAX_TRIANGLES} triangles, and no edge is split any more"
+    );
+    assert_eq!(shaping.notices(), [said]);
+    let bytes = shaping.bytes() / shaping.vertex_count();
+    assert!(bytes <= 200, "{bytes} bytes a vertex");
     let shaped = shaping.shaped();
     assert!(shaped.triangles.len() <= MAX_TRIANGLES + 2);
     let check = Check::of(&shaped.positions, &shaped.triangles, None);

@@ -1,5 +1,21 @@
 //! The steps in which the flow of a `sweep` is integrated (spec/sweepers.md, A.3): poses, screws and reach of every
 //! tool in each, found once per edit in 64 bits.
+//!
+//! # Differs from the source
+//!
+//! Angelidis, Wyvill and Cani (*Sweepers*, section 3.2) divide a path into s sub-steps p ↦ exp(φ(p)·L/s)·p, in each of
+//! which the field φ stands still. Here a sweep is their limit, the flow of the weighted velocities.
+//! - It depends on no s: at the smallest s of the paper the image of a point lies up to 1.1 coatings from the limit,
+//!   and halves that only as s doubles. Part of a path and then the rest are the whole, so that `progress` animates.
+//! - It has an inverse, the flow backwards, which is what a template evaluates. The paper has none (section 7).
+//! - It folds nothing, whatever the tools and paths. Of a sub-step of one tool that can be proved where 1.875·|ξ| is
+//!   less than the coating, ξ its way, for then det J = det E·(1 + ξ·∇φ) is above 0; by no smaller factor. For several
+//!   tools the paper conjectures it (appendix A).
+//! - Its steps are those of the integrator, so many to a coating travelled, and the paper's bounds for s are not used:
+//!   (1) and 4.2 take the box about the coating at the first key, which is too small for a tool that grows, and by (3)
+//!   a still thin coating inside a wide one that moves folds.
+//! - The field is 1 inside too, and the distance is scaled by the cube root of the pose's determinant, whose exponent
+//!   is lost in print: the coating keeps its width while a tool grows.
 
 use super::clusters::clusters;
 use super::facts::Given;

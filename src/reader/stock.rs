@@ -34,6 +34,11 @@ impl StockKey {
         }
     }
 
+    /// True if the subject is a clay.
+    pub fn is_of_clay(&self) -> bool {
+        self.picture.is_some()
+    }
+
     /// What relative addresses start from.
     pub fn base(&self) -> &str {
         &self.base

@@ -268,6 +268,7 @@ impl ClayDesk {
             .and_then(|last| last.strokes_shared(clay));
         self.kept
             .retain(|kept| common.is_some_and(|common| kept.done() <= common) && !kept.lacks(clay));
+        self.start.take_if(|start| !start.is_of(clay));
         self.last = Some(Arc::clone(clay));
         let all = clay.strokes.len();
         let mut begun = 0.0;
@@ -289,6 +290,14 @@ impl ClayDesk {
         }
         // What was shaped last is always kept.
         self.kept.last().ok_or(ClayError::Stopped)
+    }
+
+    /// Bytes of the states that are kept, of the start and of the grids of tools.
+    pub fn bytes(&self) -> usize {
+        let start = self.start.iter().map(|start| &start.shaping);
+        let states = self.kept.iter().chain(start).map(Shaping::bytes);
+        let grids = self.meshes.iter().map(|(_, grid)| grid.values().len() * 4);
+        states.chain(grids).sum()
     }
 
     /// Keeps a state, if it is one of the last, in place of the earliest ones where there is no room.
@@ -650,6 +659,18 @@ mod tests {
         assert_eq!(late, anew);
         let (surface, _) = surface_of_clay(&mut desk, &other, &mut |_| true).unwrap();
         assert_eq!(surface.grids.len(), 1, "captions go with the tool");
+    }
+
+    /// Another clay takes the place of one that began with a file, and of its strokes.
+    #[test]
+    fn another_clay_leaves_nothing_of_the_one_before() {
+        let mut desk = ClayDesk::default();
+        let clay = of_file(r#""src": "a.obj""#);
+        assert!(surface(&make(&mut desk, &clay, tetrahedron(30))).is_some());
+        desk.shape(&pulled(), &mut |_| true).unwrap();
+        let mut anew = ClayDesk::default();
+        anew.shape(&pulled(), &mut |_| true).unwrap();
+        assert_eq!(desk.bytes(), anew.bytes());
     }
 
     #[test]

@@ -753,6 +753,11 @@ impl Services for NativeServices {
         });
     }
 
+    fn let_clay_go(&mut self) {
+        // A thread that still shapes one ends soon, and takes the old desk with it.
+        self.clays = Arc::default();
+    }
+
     fn copy_text(&mut self, text: String) {
         self.ctx.copy_text(text);
         self.send(Message::Copied(Ok(())));
@@ -798,5 +803,47 @@ impl Services for NativeServices {
 
     fn stored(&self, key: &str) -> Option<String> {
         std::fs::read_to_string(store_file(key)?).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    fn wait_until(mut is_so: impl FnMut() -> bool) {
+        let patience = Instant::now() + Duration::from_secs(60);
+        while !is_so() {
+            assert!(Instant::now() < patience, "it never comes");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// What a clay's strokes have left goes with it, at once or as soon as the thread ends that still shapes it.
+    #[test]
+    fn a_clay_that_goes_leaves_nothing() {
+        let text = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05,
+            "strokes": [{ "path": [0, 0, 400, 0, 0, 120] }] } } }"#;
+        let document = Document::from_json(text).unwrap();
+        let want = Want::subject(&document.illustration().subject);
+        let cube = Document::from_json(r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#);
+        let cube = Want::subject(&cube.unwrap().illustration().subject);
+        let is_end = |message: Message| match message {
+            Message::Load { event, .. } => matches!(event, LoadEvent::Done { .. }),
+            _ => false,
+        };
+        for is_whole in [true, false] {
+            let mut services = NativeServices::new(egui::Context::default(), SMALL, None);
+            services.load(&want);
+            if is_whole {
+                wait_until(|| services.poll().into_iter().any(is_end));
+                assert!(services.clays.lock().unwrap().bytes() > 100_000);
+            }
+            let desk = Arc::downgrade(&services.clays);
+            services.load(&cube);
+            services.let_clay_go();
+            wait_until(|| desk.strong_count() == 0);
+            assert_eq!(services.clays.lock().unwrap().bytes(), 0);
+        }
     }
 }

@@ -73,6 +73,8 @@ pub(super) struct Page {
     pub on_copy_refused: Option<js_sys::Function>,
     /// What sets texts in place of the canvas.
     pub texts: Option<Texts>,
+    /// How hard a pen presses on the canvas.
+    pub pen: Option<f32>,
 }
 
 impl Page {
@@ -101,6 +103,7 @@ impl Page {
             picture_wanted: None,
             on_copy_refused: None,
             texts: None,
+            pen: None,
         }
     }
 
@@ -706,6 +709,14 @@ impl Services for PageServices {
             Ok(load) => page.writing = Some(load),
             Err(error) => page.send(Message::Saved(Err(text_of(&error)))),
         }
+    }
+
+    fn pen(&self) -> Option<f32> {
+        self.0.borrow().pen
+    }
+
+    fn let_clay_go(&mut self) {
+        run::end_resting();
     }
 
     fn copy_text(&mut self, text: String) {

@@ -845,7 +845,7 @@ impl Inner {
             let Some(oldest) = oldest.map(|(id, _)| *id) else {
                 return;
             };
-            self.stocks.remove(&oldest);
+            self.remove_stock(oldest);
             let pictures = self.shown.values_mut();
             for shown in pictures.filter(|shown| shown.stock == oldest) {
                 shown.picture.forget_subject();
@@ -862,7 +862,16 @@ impl Inner {
             .copied()
             .collect();
         for id in unused {
-            self.stocks.remove(&id);
+            self.remove_stock(id);
+        }
+    }
+
+    /// Lets go of a subject, and with the last clay of the worker that rests until another stroke of it is shown.
+    fn remove_stock(&mut self, id: u32) {
+        let is_of_clay = |stocked: &Stocked| stocked.stock.key().is_of_clay();
+        let was_clay = self.stocks.remove(&id).as_ref().is_some_and(is_of_clay);
+        if was_clay && !self.stocks.values().any(is_of_clay) {
+            run::end_resting();
         }
     }
 

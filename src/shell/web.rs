@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
-use web_sys::{HtmlCanvasElement, Url};
+use web_sys::{HtmlCanvasElement, PointerEvent, Url};
 
 use super::address::{foreign_host, part_of};
 use super::mirror::Mirror;
@@ -33,6 +33,7 @@ pub struct Viewer {
     /// Text of a link or a document to open in place of the one in the address.
     text: RefCell<Option<String>>,
     _on_pop: Closure<dyn FnMut()>,
+    _on_pen: Closure<dyn FnMut(PointerEvent)>,
 }
 
 #[wasm_bindgen]
@@ -60,10 +61,11 @@ impl Viewer {
         }
         Self {
             runner: eframe::WebRunner::new(),
-            canvas,
-            page,
             text: RefCell::new(None),
             _on_pop: on_pop,
+            _on_pen: hear_pen(&canvas, &page),
+            canvas,
+            page,
         }
     }
 
@@ -358,6 +360,28 @@ impl eframe::App for Shown {
     fn persist_egui_memory(&self) -> bool {
         false
     }
+}
+
+/// Keeps how hard a pen presses on the canvas: eframe takes it for a mouse, or for a finger.
+fn hear_pen(
+    canvas: &HtmlCanvasElement,
+    page: &Rc<RefCell<Page>>,
+) -> Closure<dyn FnMut(PointerEvent)> {
+    let page = Rc::clone(page);
+    let on_pen = Closure::new(move |event: PointerEvent| {
+        let kind = event.pointer_type();
+        // A palm may rest beside the pen.
+        if kind != "touch" {
+            let presses = kind == "pen" && event.buttons() != 0;
+            page.borrow_mut().pen = presses.then(|| event.pressure());
+        }
+    });
+    for kind in ["pointerdown", "pointermove", "pointerup", "pointercancel"] {
+        let listener = on_pen.as_ref().unchecked_ref();
+        // No browser refuses.
+        let _heard = canvas.add_event_listener_with_callback(kind, listener);
+    }
+    on_pen
 }
 
 /// Whether the page must not also act on an event. Keys that belong to the browser (reload, tools, full screen, what

@@ -219,6 +219,28 @@ fn a_clay_is_begun_from_the_list_of_subjects() {
     window.press(Key::Escape);
     window.undo();
     assert!(window.document().to_json().contains("cube"));
+    assert_eq!(window.log.0.borrow().clays_gone, 1);
+}
+
+/// What the strokes of a clay have left is given back once there is none, also where the next subject cannot be had.
+#[test]
+fn a_clay_is_let_go_with_its_document() {
+    let absent = format!(r#"{{ "sha256": "{}" }}"#, "0".repeat(64));
+    let documents = [
+        (r#"{ "clay": { "detail": 0.06 } }"#, 0),
+        (r#"{ "clay": { "from": { "shape": "cube" } } }"#, 0),
+        (r#"{ "builtin": "cube" }"#, 1),
+        (r#"{ "clay": { "detail": 0.06 } }"#, 1),
+        (&absent, 2),
+    ];
+    let mut window = Window::open(DESK, r#"{ "fabrica": 1 }"#);
+    for (subject, gone) in documents {
+        let text = format!(r#"{{ "fabrica": 1, "subject": {subject} }}"#);
+        let message = Message::OpenText { text };
+        window.log.0.borrow_mut().queue.push(message);
+        window.steps(3);
+        assert_eq!(window.log.0.borrow().clays_gone, gone, "{subject}");
+    }
 }
 
 #[test]
@@ -473,6 +495,41 @@ fn a_stroke_is_moved_in_the_list() {
     window.undo();
     window.settle();
     assert_eq!(window.document().to_json_compact(), before);
+}
+
+/// A replay that is stopped midway: the document has all of its strokes, and what undo brings is shown.
+#[test]
+fn a_stopped_replay_loses_nothing() {
+    let json = PULLED.replace("\"strokes\": 0", "\"strokes\": 2");
+    let mut window = Window::open(DESK, &json);
+    window.settle();
+    let (before, shown) = (window.document().to_json_compact(), window.tip());
+    window.click("Stroke 1");
+    window.log.0.borrow_mut().is_slow = true;
+    window.click("Move stroke 1 up: it acts later");
+    window.steps(3);
+    let moved = window.document().to_json_compact();
+    assert_ne!(moved, before);
+    window.click("Cancel loading");
+    window.steps(5);
+    assert_eq!(
+        window.document().to_json_compact(),
+        moved,
+        "all strokes are there"
+    );
+    window.log.0.borrow_mut().is_slow = false;
+    window.settle();
+    assert_eq!(window.strokes_asked(), [2, 2], "it is not asked for again");
+    window.undo();
+    window.settle();
+    assert_eq!(window.document().to_json_compact(), before);
+    assert!((window.tip() - shown).abs() < 0.5, "it is shown as it was");
+    assert!(window.harness.state().is_at_rest());
+    // And redone it is what it would have been.
+    window.press_with(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    window.settle();
+    assert_eq!(window.document().to_json_compact(), moved);
+    assert_eq!(window.strokes_asked().last(), Some(&2));
 }
 
 #[test]

@@ -26,6 +26,8 @@ pub(crate) struct Log {
     pub(crate) loads: Vec<Want>,
     pub(crate) answered_raw: Vec<(Ticket, RawVoxels)>,
     pub(crate) cancelled: Vec<Ticket>,
+    /// How often a clay was let go.
+    pub(crate) clays_gone: usize,
     pub(crate) allowed: Vec<Ticket>,
     /// Displacement fields that were asked for.
     pub(crate) fields: Vec<Want>,
@@ -310,6 +312,9 @@ impl Services for Fake {
             ticket,
             event: LoadEvent::Cancelled,
         });
+    }
+    fn let_clay_go(&mut self) {
+        self.0.borrow_mut().clays_gone += 1;
     }
     fn save_file(&mut self, file: SaveFile) {
         let log = &mut *self.0.borrow_mut();

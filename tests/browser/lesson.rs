@@ -4,10 +4,13 @@
 use super::embed::{open_half, picture_of, ready, rests_quietly};
 use super::harness::Tab;
 use super::*;
-use fabrica::data::VolumeBuilder;
+use fabrica::clay::Way;
+use fabrica::data::{Grids, VolumeBuilder};
 use fabrica::document::SubjectRef;
+use fabrica::render::View;
 use fabrica::shell::clays::{ClayDesk, surface_of_clay};
 use fabrica::subjects::FINE_RESOLUTION;
+use glam::{DVec3, Vec2};
 
 /// As clicks in the editor record it (see tests/app/steps.rs): a template and a label are added at step 3.
 const RECORDED: &str = r##"{"fabrica":1,"subject":{"builtin":"cube"},"templates":[{"kind":"peel","at":[0,0.3902,0],"rotate":[0,-0.7071,-0.7071,0],"size":[0.3349,0.2679,0.201]},{"kind":"hole","at":[-0.385,-0.0808,0.0748],"rotate":[0.5001,-0.5001,-0.4999,0.4999],"size":[0.3349,0.3349,0.2679],"amount":0,"enabled":false}],"labels":[{"at":[-0.4803,0.0808,0.1959],"enabled":false,"text":"Middle"}],"steps":[{"set":{"/look/background":"#f6f1e7"}},{"set":{"/camera/rotate":[0,0,0.7071,0.7071]}},{"set":{"/labels/0/enabled":true,"/templates/1/amount":1,"/templates/1/enabled":true}},{"set":{"/look/background":"#262b30"}},{"set":{"/templates/1/enabled":false}},{"set":{"/camera/rotate":[0,0,0,1]}}]}"##;
@@ -189,10 +192,11 @@ fn a_lesson_rests_at_its_steps_and_never_jumps() {
 }
 
 /// Two embeds of one clay show different strokes of it, and steps show it grow, each as the native program shapes it.
+/// The caption is on its tissue in all of them.
 #[test]
 fn a_clay_grows_by_steps() {
     const GROWS: &str = r#"{"fabrica":1,"subject":{"clay":{"detail":0.05,"tools":[{"radius":0.15}],
-        "strokes":[{"path":[0,0,400,0,0,150]},{"path":[700,0,0,-350,0,0]}]}},"look":{"strokes":0},
+        "strokes":[{"path":[0,0,400,0,0,150]},{"path":[700,0,0,-350,0,0]}]}},"look":{"strokes":0},"labels":[{"at":[0,0,0.5],"text":"Tip"}],
         "steps":[{"title":"Pulled","seconds":0.1,"set":{"/look/strokes":1}},{"title":"Pressed","seconds":0.1,"set":{"/look/strokes":2}}]}"#;
     with_browser(BrowserGpu::Software, |session| async move {
         let link = payload(GROWS);
@@ -204,13 +208,16 @@ fn a_clay_grows_by_steps() {
         let gpu = Gpu::open(&GpuOptions::default()).await.expect("a device");
         let document = Document::from_json(GROWS).expect("a document");
         let lesson = document.lesson().expect("steps");
-        let mut pictures = Vec::new();
+        let (mut pictures, mut tips) = (Vec::new(), Vec::new());
         for step in 0..=2 {
             let shown = lesson.at_step(step).expect("a step");
             let SubjectRef::Clay(clay) = shown.subject_shown() else {
                 panic!("a clay")
             };
             assert_eq!(clay.strokes.len(), step);
+            let tip = Way::of(&clay, &Grids::default()).forward_of(DVec3::new(0.0, 0.0, 0.5));
+            let tip = View::new(&shown.camera, size).pixel_from_subject(tip.as_vec3());
+            tips.push(tip.expect("in the picture") / Vec2::from(size.map(|n| n as f32)));
             let made = surface_of_clay(&mut ClayDesk::default(), &clay, &mut |_| true);
             let subject = fabrica::data::Subject::from(made.expect("it can be made").0);
             let studio = Studio::new(&gpu, &subject, true).expect("it fits");
@@ -237,7 +244,17 @@ fn a_clay_grows_by_steps() {
                 tokio::time::sleep(std::time::Duration::from_millis(200)).await;
             }
             assert_eq!(seen, Some(step));
+            // The dot at the end of its line is seen, and stands there as a part of the picture.
+            let [x, y] = tips[step].to_array();
+            let is_there = format!(
+                "(() => {{ const [dot, room] = ['circle', 'canvas'].map(name => e0.shadowRoot.querySelector(name));
+                    const at = name => Number(dot.getAttribute(name));
+                    return dot.style.display !== 'none'
+                        && Math.hypot(at('cx') / room.clientWidth - {x}, at('cy') / room.clientHeight - {y}) < 0.02; }})()"
+            );
+            tab.wait_until(&is_there, 30).await;
         }
+        assert!(tips[0].distance(tips[1]) > 0.05, "it is pulled: {tips:?}");
         assert_eq!(looks_like(&picture_of(&tab, "e1").await), Some(2));
         tab.assert_no_complaints().await;
     });

@@ -7,6 +7,9 @@ use super::harness::{Tab, with_browser};
 use super::parts::{count, small_scan};
 use super::path::downloads;
 use super::*;
+use chromiumoxide::cdp::browser_protocol::input::{
+    DispatchMouseEventParams, DispatchMouseEventPointerType, DispatchMouseEventType, MouseButton,
+};
 use fabrica::clay::{MeshFormat, Writing};
 use fabrica::document::{Document, SubjectRef};
 use fabrica::shell::clays::ClayDesk;
@@ -24,6 +27,52 @@ async fn stroke(tab: &Tab, from: (f64, f64), by: (f64, f64)) -> serde_json::Valu
     let subject = changed(tab, "subject").await;
     tab.settled().await;
     subject["clay"]["strokes"].clone()
+}
+
+/// Drags with a pen that presses so hard, 0 to 1, as [`stroke`] does with the mouse.
+async fn pen_stroke(tab: &Tab, from: (f64, f64), by: (f64, f64), force: f64) -> serde_json::Value {
+    let (x, y) = find(tab, "Picture").await.middle();
+    mark(tab, "subject").await;
+    let event = async |kind, part: f64, force: f64| {
+        let (x, y) = (x + from.0 + part * by.0, y + from.1 + part * by.1);
+        let mut pen = DispatchMouseEventParams::new(kind, x, y);
+        pen.pointer_type = Some(DispatchMouseEventPointerType::Pen);
+        if force > 0.0 {
+            pen.button = Some(MouseButton::Left);
+            pen.buttons = Some(1);
+            pen.click_count = Some(1);
+            pen.force = Some(force);
+        }
+        tab.page.execute(pen).await.expect("a pen");
+        tab.frames(2).await;
+    };
+    event(DispatchMouseEventType::MouseMoved, 0.0, 0.0).await;
+    event(DispatchMouseEventType::MousePressed, 0.0, force).await;
+    for i in 1..=6 {
+        event(
+            DispatchMouseEventType::MouseMoved,
+            f64::from(i) / 6.0,
+            force,
+        )
+        .await;
+    }
+    event(DispatchMouseEventType::MouseReleased, 1.0, force).await;
+    let subject = changed(tab, "subject").await;
+    tab.settled().await;
+    subject["clay"]["strokes"].clone()
+}
+
+/// How far from the middle of the clay the last stroke begins, thousandths of its size.
+fn begins_at(strokes: &serde_json::Value) -> f64 {
+    let last = strokes.as_array().and_then(|all| all.last());
+    let path = &last.expect("a stroke")["path"];
+    let place = |axis: usize| path[axis].as_f64().expect("a number");
+    [0, 1, 2]
+        .map(place)
+        .iter()
+        .map(|x| x * x)
+        .sum::<f64>()
+        .sqrt()
 }
 
 /// The file that the native program makes of a document's clay.
@@ -106,6 +155,89 @@ fn a_clay_is_shaped_by_hand_and_handed_on() {
         assert_eq!(opened["subject"], whole["subject"]);
         let again = object_part(&other.picture("clay_handed_on").await);
         let off = difference(&shaped, &again, WHITE);
+        assert!(off.mean < 0.2, "the same clay: {off:?}");
+        other.assert_no_complaints().await;
+
+        // With its document goes what its strokes have left, although the next subject cannot be had.
+        let ended = "(Worker.prototype.terminate = (end => function () { window.ended = (window.ended ?? 0) + 1; end.call(this); })(Worker.prototype.terminate), true)";
+        assert!(other.eval::<bool>(ended).await);
+        let absent = format!(
+            r#"{{"fabrica":1,"subject":{{"sha256":"{}"}}}}"#,
+            "0".repeat(64)
+        );
+        let script = format!("(window.fabrica.viewer.set_link('{absent}'), true)");
+        assert!(other.eval::<bool>(&script).await);
+        other.wait_until("window.ended === 1", 30).await;
+    });
+}
+
+/// The harder a pen presses, the deeper its tool is sunk. The clay is baked into a tool that stamps it; its head is cut
+/// open; and the link shows the same in another tab.
+#[test]
+fn a_pen_shapes_and_the_baked_clay_stamps() {
+    with_browser(BrowserGpu::Software, |session| async move {
+        let tab = session
+            .half_viewer(&format!("#{}", payload(CLAY)), HIGH)
+            .await;
+        focus(&tab).await;
+        tab.settled().await;
+        click(&tab, "Shape the clay").await;
+        let (from, by) = ((50.0, -60.0), (30.0, -70.0));
+        let mut depths = Vec::new();
+        for force in [0.2, 0.5, 0.9] {
+            let strokes = pen_stroke(&tab, from, by, force).await;
+            assert_eq!(strokes.as_array().map(Vec::len), Some(1), "{strokes}");
+            depths.push(begins_at(&strokes));
+            mark(&tab, "subject").await;
+            press_with(&tab, 2, "z", None).await;
+            changed(&tab, "subject").await;
+            tab.settled().await;
+        }
+        let of_mouse = begins_at(&stroke(&tab, from, by).await);
+        println!("a pen begins at {depths:?}, a mouse at {of_mouse}");
+        assert!(
+            depths[0] > depths[1] + 20.0 && depths[1] > depths[2] + 20.0,
+            "harder is deeper: {depths:?}"
+        );
+        assert!(
+            (of_mouse - depths[1]).abs() < 3.0,
+            "a mouse is a pen at one half"
+        );
+
+        click(&tab, "Bake the clay").await;
+        let stamped = stroke(&tab, (0.0, 30.0), (0.0, 60.0)).await;
+        let tools = &document(&tab).await["subject"]["clay"]["tools"];
+        let tool = stamped[1]["tool"].as_u64().expect("another tool") as usize;
+        assert_eq!(tools[tool]["shape"], "clay", "{tools}");
+        assert_eq!(tools[tool]["strokes"], 1, "{tools}");
+        click(&tab, "Put the tool away").await;
+        tab.settled().await;
+        let whole = object_part(&tab.picture("clay_stamped").await);
+        mark(&tab, "templates").await;
+        click(&tab, "Place cut").await;
+        let (x, y) = find(&tab, "Picture").await.middle();
+        tab.click(x, y - 40.0).await;
+        let templates = changed(&tab, "templates").await;
+        assert_eq!(templates[0]["kind"], "cut", "{templates}");
+        press(&tab, "Escape").await;
+        tab.settled().await;
+        let open = object_part(&tab.picture("clay_cut_open").await);
+        let cut = difference(&whole, &open, WHITE);
+        assert!(cut.mean > 0.5, "the cut is seen: {cut:?}");
+        tab.assert_no_complaints().await;
+
+        let before = document(&tab).await;
+        let link: String = tab.eval("window.fabrica.viewer.get_link()").await;
+        tab.page.close().await.expect("the tab closes");
+        let other = session.half_viewer(&format!("#{link}"), HIGH).await;
+        focus(&other).await;
+        other.settled().await;
+        let opened = document(&other).await;
+        for part in ["subject", "templates"] {
+            assert_eq!(opened[part], before[part], "{part}");
+        }
+        let again = object_part(&other.picture("clay_cut_again").await);
+        let off = difference(&open, &again, WHITE);
         assert!(off.mean < 0.2, "the same clay: {off:?}");
         other.assert_no_complaints().await;
     });

@@ -23,6 +23,8 @@ mod load;
 mod load_dicom;
 mod load_formats;
 mod load_hostile;
+#[path = "../support/long.rs"]
+mod long;
 #[cfg(target_os = "linux")]
 #[path = "../support/memory.rs"]
 mod memory;
@@ -36,7 +38,10 @@ mod prose;
 mod recipes;
 #[path = "../support/scans.rs"]
 mod scans;
+#[path = "../support/scatter.rs"]
+mod scatter;
 mod shaders;
+mod strokes;
 mod subjects;
 #[path = "../support/surfaces.rs"]
 mod surfaces;

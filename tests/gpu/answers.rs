@@ -2,14 +2,18 @@
 //! picture gets no finer meanwhile.
 
 use crate::gpu::{builtin, open_software};
+use crate::long::long_or;
+use crate::scatter::Random;
 use fabrica::data::Subject;
 use fabrica::document::{Document, Illustration};
 use fabrica::render::{Clock, DrawState, Image, Renderer};
+use serde_json::json;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Milliseconds of the test's own clocks: each test has one.
 static HELD: AtomicU64 = AtomicU64::new(0);
 static FIRST: AtomicU64 = AtomicU64::new(0);
+static WILD: AtomicU64 = AtomicU64::new(0);
 
 fn held() -> f64 {
     HELD.load(Ordering::Relaxed) as f64 * 1e-3
@@ -19,7 +23,12 @@ fn first() -> f64 {
     FIRST.load(Ordering::Relaxed) as f64 * 1e-3
 }
 
+fn wild() -> f64 {
+    WILD.load(Ordering::Relaxed) as f64 * 1e-3
+}
+
 const SIZE: [u32; 2] = [256, 192];
+const SMALL: [u32; 2] = [96, 72];
 
 fn cube(distance: f32) -> Illustration {
     let json = r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#;
@@ -40,11 +49,12 @@ fn renderer(clock: Clock) -> Renderer {
 /// Draws, so many milliseconds a frame, until something is so.
 fn until(
     renderer: &mut Renderer,
+    size_px: [u32; 2],
     (clock, step): (&AtomicU64, u64),
     is_so: impl Fn(&DrawState) -> bool,
 ) -> DrawState {
     for _ in 0..20_000 {
-        let state = renderer.draw(SIZE, 1e-3, false).expect("it is drawn");
+        let state = renderer.draw(size_px, 1e-3, false).expect("it is drawn");
         if is_so(&state) {
             return state;
         }
@@ -58,7 +68,7 @@ fn until(
 fn the_picture_gets_no_finer_while_somebody_does_something() {
     let mut renderer = renderer(held);
     let frames = (&HELD, 20);
-    until(&mut renderer, frames, |state| {
+    until(&mut renderer, SIZE, frames, |state| {
         state.has_picture && state.progress > 0.0 && !state.is_done
     });
     // Work under way ends.
@@ -79,8 +89,58 @@ fn the_picture_gets_no_finer_while_somebody_does_something() {
         let now = renderer.draw(SIZE, 1e-3, true).expect("it is drawn");
         assert!(now.is_held && now.progress == before, "{now:?}");
     }
-    let after = until(&mut renderer, frames, |state| state.progress > before);
+    let after = until(&mut renderer, SIZE, frames, |state| state.progress > before);
     assert!(!after.is_held, "nobody does anything any more: {after:?}");
+}
+
+/// However `progress` is dragged about, the device holds no more for it, and at last the picture is of the last value.
+#[test]
+fn progress_that_is_dragged_wildly_takes_no_memory() {
+    let swept = |progress: f32| {
+        let sweep = json!({ "kind": "sweep", "size": [1, 1, 1], "params": { "progress": progress,
+            "tools": [{ "radius": 0.1, "path": [[0.2, 0.2, 0.9], [0.7, 0.7, 0.6], [0.8, 0.3, 0.4]] }] } });
+        let value = json!({ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": [sweep] });
+        let document = Document::from_value(value).expect("a document");
+        document.illustration().clone()
+    };
+    let mut random = Random(0xd7a6);
+    let mut renderer = renderer(wild);
+    let held = |renderer: &Renderer| {
+        let device = &renderer.gpu().device;
+        device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .expect("it is there");
+        let report = device.generate_allocator_report().expect("lavapipe tells");
+        report.total_allocated_bytes
+    };
+    let mut drag = |renderer: &mut Renderer, times: usize| {
+        for _ in 0..times {
+            renderer.set_illustration(&swept(random.unit()));
+            for _ in 0..1 + random.index(3) {
+                WILD.fetch_add(10, Ordering::Relaxed);
+                renderer.draw(SMALL, 1e-3, true).expect("it is drawn");
+            }
+        }
+    };
+    // Each takes a skip grid of its own.
+    drag(&mut renderer, 8);
+    let before = held(&renderer);
+    drag(&mut renderer, long_or(200, 12));
+    let after = held(&renderer);
+    assert!(
+        after <= before + before / 10,
+        "{before} and then {after} bytes"
+    );
+    let last = |renderer: &mut Renderer| {
+        renderer.set_illustration(&swept(0.7));
+        until(renderer, SMALL, (&WILD, 0), |state| state.is_done);
+        pollster::block_on(renderer.read_output()).expect("a picture")
+    };
+    let dragged = last(&mut renderer);
+    assert!(
+        dragged == last(&mut self::renderer(wild)),
+        "the same as at once"
+    );
 }
 
 #[test]
@@ -91,7 +151,7 @@ fn a_slow_device_draws_the_interface_before_the_picture() {
     for (step, is_slow) in [(0, false), (60, true)] {
         let mut renderer = renderer(first);
         let frames = (&FIRST, step);
-        until(&mut renderer, frames, |state| state.is_done);
+        until(&mut renderer, SIZE, frames, |state| state.is_done);
         let before = picture(&renderer);
         FIRST.fetch_add(1_000, Ordering::Relaxed);
         renderer.set_illustration(&cube(3.0));

@@ -1,9 +1,12 @@
 //! Captions follow their tissue: points of rest space are found in the deformed object, by asking the object what it
 //! has there.
 
+use crate::cli::fabrica_with;
 use crate::gpu::{builtin, gpu, studio_of};
 use crate::scatter::Random;
-use fabrica::document::{Align, Document, Illustration, TemplateKind};
+use fabrica::clay::Way;
+use fabrica::data::Grids;
+use fabrica::document::{Align, Document, Illustration, SubjectRef, TemplateKind};
 use fabrica::render::{Studio, View, caption_places};
 use glam::{Vec2, Vec3};
 
@@ -270,4 +273,81 @@ fn every_caption_is_asked_whether_it_is_in_sight() {
     assert_eq!(hidden.len(), 240);
     assert_eq!(hidden.iter().position(|is| *is), Some(120));
     assert!(hidden[120..].iter().all(|is| *is));
+}
+
+/// Two ears in four strokes, a muzzle, a tail and feet; the caption stands where an ear is pulled out of the ball.
+const TWELVE_STROKES: &str = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.06,
+    "tools": [{ "radius": 0.1, "coat": 0.15 }, { "radius": 0.06, "coat": 0.08 }], "strokes": [
+        { "path": [250, 0, 350, 60, 0, 150], "mirror": "x" }, { "path": [300, 0, 480, 80, 0, 160], "mirror": "x" },
+        { "path": [360, 0, 600, 60, 0, 120], "mirror": "x" }, { "path": [0, -430, 0, 0, -150, 0] },
+        { "path": [0, -550, 0, 0, -80, -60], "tool": 1 }, { "path": [160, -600, 160, 0, 150, 0], "tool": 1, "mirror": "x" },
+        { "path": [380, 0, 680, 60, 0, 60], "turns": [0, 0, 0, 0, 40, 0], "mirror": "x" },
+        { "path": [0, 400, -200, 0, 200, 0] }, { "path": [0, 560, -200, 0, 120, 150], "tool": 1 },
+        { "path": [0, 560, -100, 0, 0, 90], "do": "smooth" },
+        { "path": [200, -300, -400, 0, -40, -160], "mirror": "x" }, { "path": [0, 0, -600, 0, 0, 120] }] } },
+    "look": { "strokes": 0 }, "labels": [{ "at": [0.28, 0, 0.41], "text": "Ear" }], "camera": { "distance": 4.5 },
+    "steps": [{ "seconds": 2, "set": { "/look/strokes": 3 } }, { "seconds": 2, "set": { "/look/strokes": 8 } },
+        { "seconds": 1, "set": { "/look/strokes": 12 } }] }"#;
+
+/// A clay grows stroke by stroke, in steps and between them, and its caption is on the ear in all of them.
+#[test]
+fn the_caption_of_a_clay_that_grows_is_on_its_ear() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let document = Document::from_json(TWELVE_STROKES).expect("a good document");
+    assert_eq!(document.notices(), []);
+    let SubjectRef::Clay(clay) = &document.illustration().subject else {
+        panic!("a clay")
+    };
+    let start = document.illustration().captions[0].at.as_dvec3();
+    let camera = document.illustration().camera;
+    let view = View::new(&camera, [240, 200]);
+    let mut dots = Vec::new();
+    for (step, seconds, strokes) in [
+        (0, None, 0..=0),
+        (1, Some(1.0), 1..=2),
+        (2, None, 8..=8),
+        (3, Some(0.5), 9..=11),
+        (3, None, 12..=12),
+    ] {
+        let mut args = vec![
+            "render",
+            "-",
+            "-o",
+            "ear.svg",
+            "--size",
+            "240x200",
+            "--samples",
+            "1",
+        ];
+        let [step_text, seconds_text] = [step.to_string(), seconds.unwrap_or(0.0_f32).to_string()];
+        args.extend(["--step", &step_text]);
+        if seconds.is_some() {
+            args.extend(["--time", &seconds_text]);
+        }
+        fabrica_with(folder.path(), &args, TWELVE_STROKES.as_bytes()).ok();
+        let picture = std::fs::read_to_string(folder.path().join("ear.svg")).expect("a picture");
+        let shown = document
+            .at_time(step, seconds.unwrap_or(9.0))
+            .expect("a step");
+        let shown = shown.strokes_shown().expect("a clay");
+        assert!(strokes.contains(&shown), "{args:?}: {shown}");
+        assert!(picture.contains(">Ear<"), "{args:?}");
+        // The dot at the end of its line is drawn last.
+        let dot = picture.rsplit("<path d=\"M").next().expect("a line");
+        let dot = dot
+            .split_once('L')
+            .and_then(|(place, _)| place.split_once(' '));
+        let (x, y) = dot.expect("two numbers");
+        let dot = Vec2::new(x.parse().expect("x"), y.parse().expect("y"));
+        let ear = Way::of(&clay.cut(shown), &Grids::default()).forward_of(start);
+        let wanted = view
+            .pixel_from_subject(ear.as_vec3())
+            .expect("in the picture");
+        assert!(dot.distance(wanted) < 1.0, "{args:?}: {dot}, not {wanted}");
+        dots.push(dot);
+    }
+    // The ear grows in its strokes, and stays where it is in those of the tail and the feet.
+    let way = |i: usize| dots[i].distance(dots[i + 1]);
+    assert!(way(0) > 5.0 && way(1) > 5.0, "{dots:?}");
+    assert!(way(2) < 1.0 && way(3) < 1.0, "{dots:?}");
 }

@@ -169,6 +169,83 @@ fn random_sweeps_are_the_flow_of_the_reference() {
     assert!(off_aim < asked / 50, "{off_aim} of {asked} miss the aim");
 }
 
+/// What the reference carries forward from a place, the probe brings back to it.
+#[test]
+fn what_was_carried_forward_comes_back() {
+    let mut random = Random(0xf0_0019);
+    let (mut moved, mut off_aim) = (0, 0);
+    let count = long_or(1000, 60);
+    for round in 0..10 {
+        let mut templates = sweeps(&mut random, round % 6);
+        for template in templates.as_array_mut().expect("a list") {
+            // Displacements that are summed have no map forward.
+            template.as_object_mut().expect("a template").remove("mode");
+        }
+        let document = document(templates);
+        let reference = Sweep::all(&serde_json::from_str(&document.to_json()).expect("its text"));
+        let placed = &document.illustration().templates;
+        let places: Vec<Vec3> = (0..count)
+            .map(|_| {
+                let of = &placed[random.index(placed.len())];
+                of.subject_from_template(random.vector(-0.1, 1.1))
+            })
+            .collect();
+        let there = places.iter().map(|p| target(&reference, p.as_dvec3()));
+        let there: Vec<Vec3> = there.map(|p| p.as_vec3()).collect();
+        for ((place, at), found) in places.iter().zip(&there).zip(ask(&document, &there)) {
+            let mut off = f64::from(found.pos_in_rest.distance(*place));
+            if off > AIM {
+                off /= stretch(&reference, at.as_dvec3()).max(1.0);
+            }
+            assert!(
+                off < BOUND,
+                "round {round}: {place} went to {at}, {found:?}"
+            );
+            off_aim += usize::from(off > AIM);
+            moved += usize::from(at.distance(*place) > 0.01);
+        }
+    }
+    println!(
+        "{moved} of {} points moved, {off_aim} off by more than {AIM}",
+        10 * count
+    );
+    assert!(moved > 2 * count && off_aim * 50 < 10 * count);
+}
+
+/// A tool of a shape that this version does not have is kept and named; the others act as if they were alone.
+#[test]
+fn a_tool_of_an_unknown_shape_moves_nothing() {
+    let path = json!([[0.5, 0.5, 0.2], [0.5, 0.5, 0.6]]);
+    let cloud = json!({ "shape": "cloud", "density": [3], "path": path });
+    let ball = json!({ "radius": 0.15, "path": [[0.2, 0.5, 0.4], [0.5, 0.5, 0.5]] });
+    let of = |tools: Value| {
+        let templates =
+            json!([{ "kind": "sweep", "size": [1, 1, 1], "params": { "tools": tools } }]);
+        let value =
+            json!({ "fabrica": 1, "subject": { "builtin": "cube" }, "templates": templates });
+        Document::from_value(value).expect("a document")
+    };
+    let [alone, beside, without] = [json!([cloud]), json!([cloud, ball]), json!([ball])].map(of);
+    for document in [&alone, &beside] {
+        let said: Vec<String> = document.notices().iter().map(ToString::to_string).collect();
+        let is_named = |line: &String| line.contains("/tools/0/shape") && line.contains("cloud");
+        assert!(said.len() == 1 && is_named(&said[0]), "{said:?}");
+        let link = fabrica::link::encode(document);
+        let opened = fabrica::link::decode(&link).expect("a document").document;
+        let text: Value = serde_json::from_str(&opened.to_json()).expect("its own text");
+        assert_eq!(text["templates"][0]["params"]["tools"][0], cloud);
+    }
+    let mut random = Random(0xc10d);
+    let points: Vec<Vec3> = (0..500).map(|_| random.vector(-0.5, 0.5)).collect();
+    let [alone, beside, without] = [&alone, &beside, &without].map(|of| ask(of, &points));
+    let is_still = |(point, found): (&Vec3, &Sample)| found.pos_in_rest == *point;
+    assert!(points.iter().zip(&alone).all(is_still));
+    assert!(!points.iter().zip(&without).all(is_still));
+    for (one, other) in beside.iter().zip(&without) {
+        assert_eq!(one.pos_in_rest, other.pos_in_rest);
+    }
+}
+
 /// Tools and images whose reaches stay apart are integrated each by itself, those that meet together: the flow is the
 /// same.
 #[test]

@@ -80,7 +80,7 @@ pub(crate) struct ShapingHand {
 impl ShapingHand {
     /// Hears of touches, before anything is made of them in this frame.
     pub(crate) fn hear(&mut self, ui: &Ui, session: &Session) {
-        ui.input(|i| self.pen.hear(&i.events, session.now));
+        ui.input(|i| self.pen.hear(&i.events, session.pen, session.now));
         self.has_palm = session.has_hand() && self.pen.has_palm(session.now);
     }
 

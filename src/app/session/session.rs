@@ -172,6 +172,8 @@ pub struct Session {
     pub load: Option<Load>,
     /// True while the shell reads files of which it is not yet known what they are, and fields.
     pub is_reading: bool,
+    /// How hard a pen presses, 0 to 1, of which touches do not tell.
+    pub pen: Option<f32>,
     /// How much of the picture for a file is drawn, 0 to 1, while one is made that the user asked for.
     pub saving: Option<f32>,
     /// Number of the message of the last load that failed, until one is done.
@@ -282,6 +284,7 @@ impl Session {
             notices: Notices::default(),
             load: None,
             is_reading: false,
+            pen: None,
             saving: None,
             load_failure: None,
             mesh_question: None,

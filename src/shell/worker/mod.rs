@@ -4,8 +4,9 @@
 //!
 //! `web/worker.js` loads the part that the first message names, and hands it a [`task`]. What the part posts back is an
 //! [`answer`]. A part that finds that a file is for another one names that, and the worker goes on with it. One worker
-//! does one task; to cancel it is to end it. Only a worker that bends a figure does one task after the other. A part
-//! that panics ends its worker, and the page goes on with a message.
+//! does one task; to cancel it is to end it. Only a worker that bends a figure does one task after the other, and one
+//! that has shaped a clay rests until its next stroke, as long as a clay is shown. A part that panics ends its worker,
+//! and the page goes on with a message.
 
 pub mod answer;
 pub mod fault;

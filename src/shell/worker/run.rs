@@ -40,7 +40,7 @@ pub fn end_waiting() {
 }
 
 /// Ends the worker that has shaped a clay and waits for its next stroke.
-fn end_resting() {
+pub fn end_resting() {
     WAITING.with_borrow_mut(|all| {
         for (_, worker) in all.extract_if(.., |(part, _)| *part == Part::Clay) {
             worker.terminate();
@@ -130,9 +130,6 @@ pub fn start(
     on_answer: impl FnMut(Answer) + 'static,
 ) -> Result<WorkerLoad, JsValue> {
     let part = task.part();
-    if part != Part::Clay && matches!(task, Task::Subject { .. } | Task::Scan(_)) {
-        end_resting();
-    }
     let worker = worker_for(part, maker)?;
     let rests = Rc::new(Cell::new(false));
     let comes_to_rest = Rc::clone(&rests);
