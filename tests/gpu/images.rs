@@ -122,9 +122,12 @@ fn variation(image: &Image, [x0, y0]: [u32; 2]) -> f64 {
 /// revision, whose borders bend where the grid cannot follow. There is no form in the square but the fitted one.
 #[test]
 fn smooth_skin_shows_no_layers_of_voxels() {
-    let flank = r#"{ "fabrica": 1, "camera": { "distance": 0.6, "target": [-0.12, 0.1, 0.05] } }"#;
     let [first, second] = [1, 2].map(|number| {
-        let image = draw(&revision("torso", number), flank, [240, 180], 4);
+        let flank = format!(
+            r#"{{ "fabrica": 1, "subject": {{ "builtin": "torso", "revision": {number} }},
+            "camera": {{ "distance": 0.6, "target": [-0.12, 0.1, 0.05] }} }}"#
+        );
+        let image = draw(&revision("torso", number), &flank, [240, 180], 4);
         variation(&image, [145, 120])
     });
     println!("{first:.2} and {second:.2} levels");
