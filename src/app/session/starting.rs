@@ -289,7 +289,7 @@ mod tests {
         let mut session = session_of(PEELED);
         let before = session.document().clone();
         session.run(Command::New, 0.0);
-        assert_eq!(*session.document(), Document::new());
+        assert_eq!(*session.document(), Document::fresh());
         assert_eq!(offers(&session), 0);
         session.run(Command::Undo, 0.0);
         assert_eq!(*session.document(), before);
