@@ -556,7 +556,7 @@ fn a_document_that_is_not_there_is_told_in_a_working_viewer() {
         log.0.borrow_mut().is_slow = true;
         let window = Window::open_with(DESK, egui::Theme::Light, log.clone(), None);
         assert!(window.harness.query_by_label_contains(words).is_some());
-        assert_eq!(window.document(), Document::new());
+        assert_eq!(window.document(), Document::fresh());
         assert!(window.harness.query_by_label("Place peel").is_some());
         assert_eq!(log.0.borrow().stored.get("document"), Some(&kept));
         assert!(log.0.borrow().links.is_empty(), "the address stays");

@@ -99,3 +99,14 @@ fn a_clay_begins_with_the_revision_that_it_names() {
         assert_eq!(written.illustration().subject, read.illustration().subject);
     }
 }
+
+#[test]
+fn an_author_begins_with_the_newest_head() {
+    let fresh = Document::fresh();
+    assert_eq!(fresh.illustration().subject, SubjectRef::newest("head"));
+    assert_eq!(revision(&fresh), newest_revision("head"));
+    assert!(notices(&fresh).is_empty());
+    assert!(fresh.is_blank() && Document::new().is_blank());
+    let named = Document::from_json(r#"{ "fabrica": 1, "title": "Head" }"#).expect("a document");
+    assert!(!named.is_blank());
+}
