@@ -40,6 +40,8 @@ pub(crate) struct PictureJob {
     pub size: [u32; 2],
     /// Rows that are drawn at once, from 1.
     pub band_rows: u32,
+    /// True for a picture as the viewer draws it while something moves.
+    pub is_quick: bool,
 }
 
 /// Rows of a picture that are drawn at once.
@@ -83,8 +85,9 @@ impl PictureJob {
             .update(&self.gpu, &mut self.scene, &self.subject, shown);
     }
 
-    /// From now on drawn from the baked map.
+    /// From now on drawn from the baked map, as while something moves.
     pub(crate) fn bake(&mut self, texels_along: Option<u32>) {
+        self.is_quick = true;
         self.passes
             .bake(&self.gpu, &mut self.scene, texels_along, u32::MAX);
     }
@@ -92,9 +95,16 @@ impl PictureJob {
     /// The uniform of a sample for targets that begin with this row of the picture.
     fn frame(&self, first_row: u32, index: u32) -> Frame {
         let detail = self.subject.frame.detail;
-        Frame {
-            first_row: first_row as f32,
-            ..frame_of(&self.view, &self.view, self.scene.bounds(), detail, index)
+        let finished = frame_of(&self.view, &self.view, self.scene.bounds(), detail, index);
+        let first_row = first_row as f32;
+        let frame = Frame {
+            first_row,
+            ..finished
+        };
+        if self.is_quick {
+            frame.of_what_moves()
+        } else {
+            frame
         }
     }
 
@@ -110,10 +120,7 @@ impl PictureJob {
         mut on_batch: impl FnMut(u64) -> Result<(), RenderError>,
     ) -> Result<(), RenderError> {
         let pipeline = self.passes.raycast.pipeline(&self.gpu, key);
-        let frame = match baked {
-            Some(_) => self.frame(band.first, index).of_what_moves(),
-            None => self.frame(band.first, index),
-        };
+        let frame = self.frame(band.first, index);
         let frame_group = frame_group(&self.gpu, &self.passes.layouts, &frame);
         let batch_tiles = match self.gpu.is_software() && self.gpu.waits() {
             true => SOFTWARE_BATCH_TILES,

@@ -107,6 +107,7 @@ impl Studio {
             subject: Arc::clone(&self.subject),
             size,
             band_rows: band_rows(size[0]),
+            is_quick: false,
         })
     }
 
@@ -212,6 +213,25 @@ impl Studio {
         async move {
             let mut job = job?;
             job.bake(texels_along);
+            job.draw(samples.max(1), |_| {}).await
+        }
+    }
+
+    /// Draws one picture from the exact map as the viewer does while the camera moves, in all of its pixels. The future
+    /// owns its resources.
+    ///
+    /// # Errors
+    /// As [`Studio::render_image`].
+    pub fn render_quick(
+        &self,
+        illustration: &Illustration,
+        size_px: [u32; 2],
+        samples: u32,
+    ) -> impl Future<Output = Result<Image, RenderError>> + 'static {
+        let job = self.picture(illustration, size_px);
+        async move {
+            let mut job = job?;
+            job.is_quick = true;
             job.draw(samples.max(1), |_| {}).await
         }
     }
