@@ -11,7 +11,7 @@ use fabrica::shell::clays::ClayDesk;
 use glam::{DMat3, DVec3, Vec3};
 use serde_json::{Value, json};
 
-/// Bytes of earlier states that may be kept (spec/sweepers.md, B.3), and strokes that they are of.
+/// Bytes of earlier states that may be kept.
 const MOST_KEPT: usize = 64 << 20;
 
 /// The clay of this recipe, which nothing is said of.
