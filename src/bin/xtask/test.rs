@@ -11,8 +11,8 @@ use crate::page;
 use crate::run::{Outcome, cargo, given_way, report, root, run, run_beside};
 use crate::setup;
 
-/// The test binaries that draw, need no page, and ask of nothing that it is quick.
-const PATIENT: [&str; 2] = ["gpu", "evaluate"];
+/// The test binaries that need no page and little memory, and ask of nothing that it is quick. The unit tests do so too.
+const PATIENT: [&str; 3] = ["fast", "gpu", "evaluate"];
 
 /// Parts of tests/app that get a process together: Mesa 22's lavapipe keeps 0.15 GB of every window drawn in a process,
 /// as long as it lives, and half a hundred windows are more than a small machine has. Some two dozen share their
@@ -56,6 +56,8 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         let _waits = sender.send(is_compiled);
         if is_compiled {
             let behind = |args: &[&str]| linted_tests(args).map(given_way);
+            let units = behind(&["--lib"]);
+            outcomes.push(units.and_then(|mut command| run("unit tests", &mut command)));
             outcomes.extend(PATIENT.map(|name| one(name, behind)));
         }
         (outcomes, is_compiled, page.join())
@@ -65,8 +67,7 @@ pub(crate) fn test(names: &[String]) -> Outcome {
         Err(_panic) => outcomes.push(Err("building the page panicked".to_owned())),
     }
     if is_compiled {
-        outcomes.push(run("unit tests", &mut linted_tests(&["--lib"])?));
-        outcomes.extend(["fast", "app"].map(|name| one(name, linted_tests)));
+        outcomes.push(one("app", linted_tests));
         let examples = &mut linted_tests(&["--doc"])?;
         outcomes.push(run("examples in the documentation", examples));
     }
