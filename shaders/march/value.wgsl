@@ -5,8 +5,8 @@
 /// as terraces.
 const GRADIENT_NEAR: f32 = 1.0;
 const GRADIENT_FAR: f32 = 2.2;
-/// Fetches of a fine gradient: for each axis the eight of a cubic B-spline.
-const FINE_FETCHES: u32 = 24u;
+/// Fetches of a fine gradient: the place and the 26 around it.
+const FINE_FETCHES: u32 = 27u;
 
 /// Gradient by central differences of two reaches along the voxel axes, per unit of texture coordinates and voxel.
 fn quick_difference_at(uvw: vec3f, axes: u32) -> vec3f {
@@ -22,33 +22,16 @@ fn quick_difference_at(uvw: vec3f, axes: u32) -> vec3f {
     return difference;
 }
 
-/// The same of the uniform cubic B-spline whose coefficients are the voxels: smooth, and flat where the voxels of an
-/// even slope change from layer to layer. Two neighbouring weights are one fetch between their voxels (Sigg and
-/// Hadwiger, "Fast third-order texture filtering", GPU Gems 2, 2005).
+/// The same by Sobel's operator in three dimensions: central differences of one voxel, weighted 1 2 1 across each of the
+/// other axes. It is four times as exact on a ball and has less of the noise of a scan; a cubic B-spline is more exact
+/// still where there is no noise, and has twice as much of it (`cargo xtask evaluate`).
 fn fine_difference_at(uvw: vec3f, fetches: u32) -> vec3f {
-    let place = uvw * subject.dims.xyz - 0.5;
-    let voxel = floor(place);
-    let f = place - voxel;
-    let r = 1.0 - f;
-    // The weights of the spline for the four voxels of an axis are w0 to w3; those of its slope are s0 to s3.
-    let w0 = r * r * r / 6.0;
-    let w1 = (4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0;
-    let w3 = f * f * f / 6.0;
-    let low_weight = w0 + w1;
-    let high_weight = 1.0 - low_weight;
-    let low = (voxel - 0.5 + w1 / low_weight) / subject.dims.xyz;
-    let high = (voxel + 1.5 + w3 / high_weight) / subject.dims.xyz;
-    // s0 + s1, which is -(s2 + s3) and never above -1/2.
-    let slope = f * f - f - 0.5;
-    let low_slope = (voxel - 0.5 + (1.5 * f * f - 2.0 * f) / slope) / subject.dims.xyz;
-    let high_slope = (voxel + 1.5 - 0.5 * f * f / slope) / subject.dims.xyz;
     var difference = vec3f(0.0);
     for (var i = 0u; i < fetches; i++) {
-        let is_along = vec3u(i >> 3u) == vec3u(0u, 1u, 2u);
-        let is_high = (vec3u(i, i >> 1u, i >> 2u) & vec3u(1u)) == vec3u(1u);
-        let weight = select(select(low_weight, high_weight, is_high), select(slope, -slope, is_high), is_along);
-        let at = select(select(low, high, is_high), select(low_slope, high_slope, is_high), is_along);
-        difference += select(vec3f(0.0), vec3f(weight.x * weight.y * weight.z * texel_at(at)), is_along);
+        let at = vec3f(vec3u(i % 3u, (i / 3u) % 3u, i / 9u)) - 1.0;
+        let across = 2.0 - abs(at);
+        let weights = vec3f(across.y * across.z, across.z * across.x, across.x * across.y) / 32.0;
+        difference += at * weights * texel_at(uvw + at / subject.dims.xyz);
     }
     return difference;
 }
