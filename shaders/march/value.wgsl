@@ -22,9 +22,9 @@ fn quick_difference_at(uvw: vec3f, axes: u32) -> vec3f {
     return difference;
 }
 
-/// The same by Sobel's operator in three dimensions: central differences of one voxel, weighted 1 2 1 across each of the
-/// other axes. On a ball it is six times as exact (`cargo xtask evaluate`), and has less of the noise of a scan. A cubic
-/// B-spline was more exact still where there is no noise, and had twice as much of it.
+/// The same by Sobel's operator in three dimensions: central differences of one voxel, weighted 1 2 1 across each of
+/// the other axes. On a ball it is six times as exact (`cargo xtask evaluate`), and has less of the noise of a scan. A
+/// cubic B-spline was more exact still where there is no noise, and had twice as much of it.
 fn fine_difference_at(uvw: vec3f, fetches: u32) -> vec3f {
     var difference = vec3f(0.0);
     for (var i = 0u; i < fetches; i++) {

@@ -118,9 +118,9 @@ fn variation(image: &Image, [x0, y0]: [u32; 2]) -> f64 {
     (left.sum::<f64>() / samples.len() as f64).sqrt()
 }
 
-/// Smooth skin shows no layers of voxels: on the flank of the torso light varies by a third of what it did in pictures of
-/// the first revision, whose borders bend where the grid cannot follow, by the normals that quick pictures still have.
-/// There is no form in the square but the fitted one.
+/// Smooth skin shows no layers of voxels: on the flank of the torso light varies by a third of what it did in pictures
+/// of the first revision, whose borders bend where the grid cannot follow, by the normals that quick pictures still
+/// have. There is no form in the square but the fitted one.
 #[test]
 fn smooth_skin_shows_no_layers_of_voxels() {
     let [first, second] = [1, 2].map(|number| {

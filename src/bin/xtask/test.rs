@@ -11,7 +11,7 @@ use crate::page;
 use crate::run::{Outcome, cargo, given_way, report, root, run, run_beside};
 use crate::setup;
 
-/// The test binaries that need no page and little memory, and ask of nothing that it is quick. The unit tests do so too.
+/// The test binaries that need no page and little memory, and ask of nothing that it is quick, as the unit tests.
 const PATIENT: [&str; 3] = ["fast", "gpu", "evaluate"];
 
 /// Parts of tests/app that get a process together: Mesa 22's lavapipe keeps 0.15 GB of every window drawn in a process,
