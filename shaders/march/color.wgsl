@@ -22,7 +22,7 @@ fn tint_at(pos: vec3f, side: u32) -> vec4f {
         sum += select(vec4f(0.0), part, is_ours);
         beyond += select(part, vec4f(0.0), is_ours);
     }
-    return select(beyond, sum, sum.a > 0.02);
+    return select(sum, beyond, sum.a <= 0.02 && beyond.a > sum.a);
 }
 
 /// Linear RGB of a surface.

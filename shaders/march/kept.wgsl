@@ -150,9 +150,6 @@ fn is_on_side(label: u32, side: u32) -> bool {
 /// tissue, else the one on this side that has most weight among the eight voxels around.
 fn label_here(rest: vec3f) -> u32 {
     let nearest = nearest_label(rest);
-    if (kept_by & 8u) == 0u {
-        return nearest;
-    }
     let side = side_at(rest);
     if is_on_side(nearest, side) {
         return nearest;

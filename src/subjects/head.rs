@@ -193,23 +193,9 @@ impl<'a> Layer<'a> {
 }
 
 /// How far the brain stays away from vessels on it, and how deep under the skull's inner side such grooves reach, mm.
+/// In the first revision there are none: its vessels sink into the brain.
 const GROOVE_MM: f32 = 0.9;
 const GROOVE_DEPTH_MM: f32 = 5.0;
-
-impl Head {
-    /// Distance from the grooves of the brain in which vessels lie, positive in them; `inside` is the distance from the
-    /// fluid around the brain. In the first revision there are none: its vessels sink into the brain.
-    #[inline(always)]
-    fn grooves(&self, p: &Places, vessels: [&Layer<'_>; 2], inside: Lanes) -> Lanes {
-        let mut grooves = Lanes::splat(-1e3);
-        if self.revision == Revision::Second {
-            for distance in vessels.into_iter().filter_map(|vessels| vessels.at(p)) {
-                grooves = grooves.max(Lanes::splat(GROOVE_MM) - distance);
-            }
-        }
-        grooves.min(inside + GROOVE_DEPTH_MM)
-    }
-}
 
 impl Model for Head {
     fn bounds_mm(&self) -> (Vec3, Vec3) {
@@ -401,6 +387,7 @@ impl Model for Head {
                 );
             }
 
+            let [vein, artery] = [&veins, &arteries].map(|vessels| vessels.at(&p));
             // What the skull and the canal hold.
             let contents = match (hollow, tube) {
                 (Some(a), Some(b)) => Some(a.min(b)),
@@ -413,8 +400,13 @@ impl Model for Head {
                 if inside.lowest() < width {
                     if let Some(solid) = hemispheres.at(&p) {
                         let gap = fissure.at(&p).unwrap_or(flat(1e3));
-                        let d = self.cortex.distance(&p.plain, solid, gap).max(inside);
-                        let d = d.max(self.grooves(&p, [&arteries, &veins], inside));
+                        let mut d = self.cortex.distance(&p.plain, solid, gap).max(inside);
+                        if self.revision == Revision::Second {
+                            for vessel in [vein, artery].into_iter().flatten() {
+                                let groove = flat(GROOVE_MM) - vessel;
+                                d = d.max(groove.min(inside + GROOVE_DEPTH_MM));
+                            }
+                        }
                         lay(d, flat(38.0), Tissue::Brain);
                         lay(d + 3.1, flat(29.0), Tissue::WhiteMatter);
                         if let Some(c) = callosum.at(&p) {
@@ -471,11 +463,11 @@ impl Model for Head {
                 }
                 _ => flat(-1e3),
             };
-            for (vessels, value, tissue) in [
-                (&veins, 180.0, Tissue::Veins),
-                (&arteries, 230.0, Tissue::Arteries),
+            for (vessel, value, tissue) in [
+                (vein, 180.0, Tissue::Veins),
+                (artery, 230.0, Tissue::Arteries),
             ] {
-                if let Some(d) = vessels.at(&p) {
+                if let Some(d) = vessel {
                     lay(d.max(s + 2.6).max(beside_vault), flat(value), tissue);
                 }
             }

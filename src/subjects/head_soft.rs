@@ -5,8 +5,8 @@
 use super::lanes::{Lanes, Points};
 use super::paint::Revision;
 use super::shape::{
-    Field, Knot, Places, Shape, along_curve, at, ball, both, capsule, chain, cuboid, curve,
-    ellipsoid, strap,
+    Field, Knot, Shape, along_curve, at, ball, both, capsule, chain, cuboid, curve, ellipsoid,
+    strap,
 };
 
 /// The fan of the temporal muscle.
@@ -412,19 +412,10 @@ pub(super) fn airway() -> Field {
 /// Vessels that would run in the bone of the vault are moved to its inner or outer side, whichever is nearer; those
 /// under the scalp lie at an even depth.
 fn fitted(knots: &[Knot], skin: &Field, cavity: &Field, revision: Revision) -> Vec<Knot> {
-    let distance = |field: &Field, p: [f32; 3]| {
-        let lane = |axis: usize| Lanes::splat(p[axis]);
-        let place = Points {
-            x: lane(0),
-            y: lane(1),
-            z: lane(2),
-        };
-        field.everywhere().distance(&Places::new(place))[0]
-    };
     knots
         .iter()
         .map(|&(p, r)| {
-            let inside = distance(cavity, p);
+            let inside = cavity.at(p);
             // Branches on the brain sank into it in the first revision.
             let (deep, under) = match revision {
                 Revision::Second if p[2] > BASE_MM => (9.0, r + 1.0),
@@ -458,6 +449,26 @@ enum Side {
     Elsewhere,
 }
 
+/// Where a place comes to that is led along a field's slope until it lies so deep, mm.
+fn led(field: &Field, p: [f32; 3], depth: f32) -> [f32; 3] {
+    let there = field.pull(p, -depth);
+    // About the base of the skull the slope leads astray.
+    if at(p).distance(at(there)) < 16.0 {
+        there
+    } else {
+        p
+    }
+}
+
+/// A place, at least so deep under the skin, mm.
+fn covered(skin: &Field, p: [f32; 3], depth: f32) -> [f32; 3] {
+    if skin.at(p) > -depth {
+        led(skin, p, depth)
+    } else {
+        p
+    }
+}
+
 /// The capsules of a vessel, on one side of the head. In the second revision it keeps its depth under the vault or
 /// under the scalp between its knots too: where it dived into the bone or the brain, it was cut.
 fn vessel(knots: &[Knot], skin: &Field, cavity: &Field, revision: Revision) -> Vec<Shape> {
@@ -482,28 +493,12 @@ fn vessel(knots: &[Knot], skin: &Field, cavity: &Field, revision: Revision) -> V
         .into_iter()
         .enumerate()
         .map(|(i, (p, r))| {
-            let pulled = |field: &Field, depth: f32| {
-                let there = field.pull(p, -depth);
-                // About the base of the skull the slope leads astray.
-                if at(p).distance(at(there)) < 16.0 {
-                    there
-                } else {
-                    p
-                }
-            };
-            let covered = |depth: f32| {
-                if skin.at(p) > -depth {
-                    pulled(skin, depth)
-                } else {
-                    p
-                }
-            };
             let place = match [sides[i / in_span], sides[i.div_ceil(in_span)]] {
-                [Side::Scalp, Side::Scalp] => pulled(skin, (r + 2.8).min(4.6)),
-                [Side::Inner, Side::Inner] => pulled(cavity, r + 1.0),
-                [Side::Scalp, _] | [_, Side::Scalp] => covered(r + 2.8),
-                _ if p[2] > BASE_MM && cavity.at(p) > -(r + 1.0) => pulled(cavity, r + 1.0),
-                _ => covered(r + 3.6),
+                [Side::Scalp, Side::Scalp] => led(skin, p, (r + 2.8).min(4.6)),
+                [Side::Inner, Side::Inner] => led(cavity, p, r + 1.0),
+                [Side::Scalp, _] | [_, Side::Scalp] => covered(skin, p, r + 2.8),
+                _ if p[2] > BASE_MM && cavity.at(p) > -(r + 1.0) => led(cavity, p, r + 1.0),
+                _ => covered(skin, p, r + 3.6),
             };
             (place, r)
         })
@@ -712,10 +707,7 @@ pub(super) fn nerves(skin: &Field, revision: Revision) -> Field {
         let mut path = along_curve(knots);
         if revision == Revision::Second {
             for (p, r) in &mut path {
-                let depth = *r + 4.2;
-                if skin.at(*p) > -depth {
-                    *p = skin.pull(*p, -depth);
-                }
+                *p = covered(skin, *p, *r + 4.2);
             }
         }
         f.join_all(0.0, both(chain(&path)));

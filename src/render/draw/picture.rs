@@ -95,11 +95,9 @@ impl PictureJob {
     /// The uniform of a sample for targets that begin with this row of the picture.
     fn frame(&self, first_row: u32, index: u32) -> Frame {
         let detail = self.subject.frame.detail;
-        let finished = frame_of(&self.view, &self.view, self.scene.bounds(), detail, index);
-        let first_row = first_row as f32;
         let frame = Frame {
-            first_row,
-            ..finished
+            first_row: first_row as f32,
+            ..frame_of(&self.view, &self.view, self.scene.bounds(), detail, index)
         };
         if self.is_quick {
             frame.of_what_moves()
