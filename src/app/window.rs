@@ -355,7 +355,8 @@ impl App {
         for effect in effects {
             match effect {
                 Effect::LoadSubject(subject) => {
-                    let want = self.assets.subject_want(&subject);
+                    let mut want = self.assets.subject_want(&subject);
+                    want.is_sketch = self.session.wants_sketch();
                     self.assets.asked_for(&want);
                     let ticket = services.load(&want);
                     self.session.load_started(ticket);

@@ -59,6 +59,8 @@ pub struct Want {
     pub reading: Reading,
     /// Of a clay the grids of its tools that are meshes, as far as they are there.
     pub meshes: MeshGrids,
+    /// The clay is still being shaped, and wanted soon: see [`Surface::sketch_of`](crate::data::Surface::sketch_of).
+    pub is_sketch: bool,
 }
 
 /// The hash of an arrived file is not the one in the document.
@@ -112,6 +114,7 @@ impl Want {
             source,
             reading,
             meshes: Vec::new(),
+            is_sketch: false,
         }
     }
 
@@ -189,6 +192,7 @@ impl Want {
                 },
                 reading: Reading::default(),
                 meshes: Vec::new(),
+                is_sketch: false,
             },
             ObjectSource::File {
                 src,
@@ -224,6 +228,7 @@ impl Want {
                 ..Reading::default()
             },
             meshes: Vec::new(),
+            is_sketch: false,
         })
     }
 

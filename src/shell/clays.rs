@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 #[cfg(not(target_arch = "wasm32"))]
 use super::loading::slabs_in_threads as slabs;
 #[cfg(target_arch = "wasm32")]
@@ -20,6 +22,13 @@ use crate::load::{
 };
 use crate::math::hex;
 use crate::subjects::{FINE_RESOLUTION, Generator, SubjectError};
+
+/// Makes a surface of meshes: with their crease angles, within a box, told how far it is.
+type Prepare = fn(
+    &[(&Mesh, Option<f32>)],
+    Option<[DVec3; 2]>,
+    &mut dyn FnMut(f32) -> bool,
+) -> Result<Surface, SurfaceError>;
 
 /// Part of the work that is done when all strokes are.
 const STROKES: f32 = 0.8;
@@ -42,8 +51,27 @@ pub struct ClayDesk {
     meshes: MeshGrids,
     /// The clay of `last` after some of its strokes, the latest last.
     kept: Vec<Shaping>,
-    /// The next clay is wanted as a file.
-    writing: Option<Writing>,
+}
+
+/// What a clay is shaped for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Purpose {
+    /// To be drawn.
+    Show,
+    /// To be drawn soon, while a hand goes on shaping it.
+    Sketch,
+    /// To be written to a file.
+    Write(Writing),
+}
+
+impl Purpose {
+    /// What a clay that is asked for is for.
+    pub fn of(want: &Want) -> Self {
+        match want.is_sketch {
+            true => Self::Sketch,
+            false => Self::Show,
+        }
+    }
 }
 
 /// A file or a volume that was read, and the clay of it that no stroke has touched.
@@ -234,11 +262,6 @@ impl ClayDesk {
         start.sha256.map(|hash| hex(&hash))
     }
 
-    /// The next clay is wanted as a file, or with `None` as a subject, as always.
-    pub fn writes(&mut self, writing: Option<Writing>) {
-        self.writing = writing;
-    }
-
     /// The bytes of the file that a clay becomes. `go_on` hears how far it is, 0 to 1, and stops it by `false`.
     ///
     /// # Errors
@@ -425,11 +448,21 @@ pub fn surface_of_clay(
     clay: &Arc<Clay>,
     go_on: &mut dyn FnMut(f32) -> bool,
 ) -> Result<(Arc<Surface>, Vec<String>), ClayError> {
+    prepared(desk, clay, Surface::of, go_on)
+}
+
+/// As [`surface_of_clay`], by [`Surface::of`] or [`Surface::sketch_of`].
+fn prepared(
+    desk: &mut ClayDesk,
+    clay: &Arc<Clay>,
+    prepare: Prepare,
+    go_on: &mut dyn FnMut(f32) -> bool,
+) -> Result<(Arc<Surface>, Vec<String>), ClayError> {
     let shaping = desk.shape(clay, &mut |part| go_on(STROKES * part))?;
     let shaped = shaping.shaped();
     let mesh = shaped.mesh();
     let within = Some(shaped.space.box_mm());
-    let surface = Surface::of(&[(&mesh, None)], within, &mut |part| {
+    let surface = prepare(&[(&mesh, None)], within, &mut |part| {
         go_on(STROKES + (1.0 - STROKES) * part)
     });
     match surface {
@@ -448,6 +481,7 @@ pub fn make_clay_of_file(
     desk: &mut ClayDesk,
     clay: &Arc<Clay>,
     file: (&mut dyn FileSet, &str),
+    purpose: &Purpose,
     post: &mut dyn Post,
 ) {
     let mut sink = PostingSink::new(post);
@@ -459,7 +493,7 @@ pub fn make_clay_of_file(
     for warning in &report.warnings {
         post.post(LoadEvent::Notice(warning.to_string()));
     }
-    make_clay(desk, clay, post);
+    make_clay(desk, clay, purpose, post);
 }
 
 /// As [`make_clay_of_file`], of a clay that begins with a scan that was read elsewhere; `name` and hash are its file's.
@@ -468,6 +502,7 @@ pub fn make_clay_of_volume(
     clay: &Arc<Clay>,
     volume: (&Volume, &str),
     sha256: Option<[u8; 32]>,
+    purpose: &Purpose,
     post: &mut dyn Post,
 ) {
     let mut sink = PostingSink::new(post);
@@ -480,7 +515,7 @@ pub fn make_clay_of_volume(
         false => return sink.end(Ok(()), &report, None),
     };
     match begun {
-        Ok(()) => make_clay(desk, clay, post),
+        Ok(()) => make_clay(desk, clay, purpose, post),
         Err(_) => sink.end(begun, &report, None),
     }
 }
@@ -491,11 +526,12 @@ fn is_wanted(clay: &Arc<Clay>, sha256: Option<[u8; 32]>) -> bool {
     sha256.is_none_or(|hash| want.check(&hex(&hash)).is_ok())
 }
 
-/// Shapes a clay and posts it, or its file if that is what is wanted next, what there is to say, and how it ended.
-pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, post: &mut dyn Post) {
-    let made = match desk.writing.take() {
-        Some(writing) => post_file(desk, clay, &writing, post),
-        None => post_surface(desk, clay, post),
+/// Shapes a clay and posts it, or its file if that is its purpose, what there is to say, and how it ended.
+pub fn make_clay(desk: &mut ClayDesk, clay: &Arc<Clay>, purpose: &Purpose, post: &mut dyn Post) {
+    let made = match purpose {
+        Purpose::Write(writing) => post_file(desk, clay, writing, post),
+        Purpose::Sketch => post_surface(desk, clay, Surface::sketch_of, post),
+        Purpose::Show => post_surface(desk, clay, Surface::of, post),
     };
     post.post(match made {
         Ok(sha256) => LoadEvent::Done { sha256 },
@@ -525,10 +561,11 @@ fn post_file(
 fn post_surface(
     desk: &mut ClayDesk,
     clay: &Arc<Clay>,
+    prepare: Prepare,
     post: &mut dyn Post,
 ) -> Result<Option<String>, ClayError> {
     let mut sink = PostingSink::of(post, "Shaping");
-    let (surface, notices) = surface_of_clay(desk, clay, &mut |part| sink.progress(part))?;
+    let (surface, notices) = prepared(desk, clay, prepare, &mut |part| sink.progress(part))?;
     let taken = sink.take(SubjectPart::Surface(surface));
     taken.map_err(|_nobody_wants_it| ClayError::Stopped)?;
     for notice in notices {
@@ -679,6 +716,7 @@ mod tests {
         make_clay(
             &mut ClayDesk::default(),
             &pulled(),
+            &Purpose::Show,
             &mut |event: LoadEvent| {
                 events.push(event);
                 true
@@ -696,6 +734,7 @@ mod tests {
         make_clay(
             &mut ClayDesk::default(),
             &pulled(),
+            &Purpose::Show,
             &mut |event: LoadEvent| {
                 stopped.push(event);
                 false
@@ -781,7 +820,7 @@ mod tests {
         assert!(start.space.middle_mm.length() < 0.1);
         // As events, without a file.
         let mut events = Vec::new();
-        make_clay(&mut desk, &clay, &mut |event: LoadEvent| {
+        make_clay(&mut desk, &clay, &Purpose::Show, &mut |event: LoadEvent| {
             events.push(event);
             true
         });
@@ -825,6 +864,7 @@ mod tests {
             desk,
             clay,
             (&mut files, "a.obj"),
+            &Purpose::Show,
             &mut |event: LoadEvent| {
                 events.push(event);
                 true
@@ -934,6 +974,7 @@ mod tests {
             &mut ClayDesk::default(),
             &clay,
             file,
+            &Purpose::Show,
             &mut |event: LoadEvent| {
                 stopped.push(event);
                 false

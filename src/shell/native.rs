@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use super::bending::{Desk, make_figure};
-use super::clays::{ClayDesk, make_clay, make_clay_of_file};
+use super::clays::{ClayDesk, Purpose, make_clay, make_clay_of_file};
 use super::command_line::ReadingFlags;
 use super::figures::read_file;
 use super::files::{Folder, Picked, local, mesh_set};
@@ -26,7 +26,7 @@ use crate::assets::{
 };
 use crate::data::VolumeLimits;
 use crate::document::{Clay, Document, RawVoxels, Reading, is_drawn_name};
-use crate::load::{is_field, mesh_among, read_field};
+use crate::load::{FileSet, is_field, mesh_among, read_field};
 use crate::render::Gpu;
 use crate::subjects::mesh_names;
 
@@ -337,7 +337,7 @@ impl NativeServices {
     /// Shapes a clay in a thread; `file` is what it begins with, if that is a file. One that nobody wants any more lets
     /// the desk go at its next step.
     fn start_clay(&mut self, clay: Arc<Clay>, want: &Want, file: Option<PathBuf>) -> Ticket {
-        let meshes = want.meshes.clone();
+        let (meshes, purpose) = (want.meshes.clone(), Purpose::of(want));
         let (ticket, is_wanted) = self.new_ticket();
         let (sender, ctx, desk) = (
             self.sender.clone(),
@@ -353,10 +353,13 @@ impl NativeServices {
             let mut desk = desk.lock().unwrap_or_else(PoisonError::into_inner);
             desk.take_meshes(&meshes);
             match &file {
-                None => make_clay(&mut desk, &clay, &mut post),
+                None => make_clay(&mut desk, &clay, &purpose, &mut post),
                 Some(path) => {
                     let (mut folder, name) = Folder::of(path);
-                    make_clay_of_file(&mut desk, &clay, (&mut folder, &name), &mut post);
+                    {
+                        let file: (&mut dyn FileSet, &str) = (&mut folder, &name);
+                        make_clay_of_file(&mut desk, &clay, file, &purpose, &mut post);
+                    }
                 }
             }
         });

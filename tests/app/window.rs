@@ -8,11 +8,11 @@ use fabrica::app::{SetText, TextOver, TextToSet};
 use fabrica::assets::{BendAnswer, BendPose, BendRequest, Role, Source, Want};
 use fabrica::document::Clay;
 use fabrica::load::{
-    LabelSource, LoadReport, MemoryFiles, ReadOptions, read_label_file, read_subject,
+    FileSet, LabelSource, LoadReport, MemoryFiles, ReadOptions, read_label_file, read_subject,
 };
 use fabrica::render::Gpu;
 use fabrica::shell::bending::{Desk, make_figure};
-use fabrica::shell::clays::{ClayDesk, make_clay, make_clay_of_file};
+use fabrica::shell::clays::{ClayDesk, Purpose, make_clay, make_clay_of_file};
 use fabrica::shell::figures::read_figure;
 use std::sync::OnceLock;
 
@@ -117,9 +117,13 @@ impl Log {
             queue.push(Message::Load { ticket, event });
             true
         };
+        let purpose = Purpose::of(want);
         match name {
-            _ if !want.has_file() => make_clay(&mut desk, clay, &mut post),
-            Some(name) => make_clay_of_file(&mut desk, clay, (&mut files, &name), &mut post),
+            _ if !want.has_file() => make_clay(&mut desk, clay, &purpose, &mut post),
+            Some(name) => {
+                let file: (&mut dyn FileSet, &str) = (&mut files, &name);
+                make_clay_of_file(&mut desk, clay, file, &purpose, &mut post);
+            }
             None => {
                 let message = fabrica::shell::loading::wanted_file(want.name());
                 let (details, fault) = (String::new(), None);

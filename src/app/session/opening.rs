@@ -82,8 +82,10 @@ impl Session {
     /// Asks for the document's subject unless it is there or on its way.
     pub fn load_subject(&mut self) {
         let subject = self.shown().subject_shown();
-        if !is_of(&self.requested, &subject) {
+        let is_sketch = self.history.is_in_drag() && matches!(subject, SubjectRef::Clay(_));
+        if !is_of(&self.requested, &subject) || (self.is_sketch_requested && !is_sketch) {
             self.given_up = None;
+            self.is_sketch_requested = is_sketch;
             self.requested = Some(subject.clone());
             self.effect(Effect::LoadSubject(subject));
         } else {
@@ -107,10 +109,22 @@ impl Session {
         is_seen && !is_it && !is_of(&self.shown_subject, subject)
     }
 
-    /// True while another part of a clay's strokes is to be shown than is.
+    /// True while another part of a clay's strokes is to be shown than is, or what a hand left is seen as a sketch.
     pub fn awaits_clay(&self) -> bool {
         let is_clay = matches!(self.illustration().subject, SubjectRef::Clay(_));
-        is_clay && !self.is_as_shown(&self.shown_subject) && !self.is_as_shown(&self.given_up)
+        let is_shown =
+            self.is_as_shown(&self.shown_subject) && !self.outlives(self.is_sketch_shown);
+        is_clay && !is_shown && !self.is_as_shown(&self.given_up)
+    }
+
+    /// True of a sketch that no hand goes on shaping.
+    fn outlives(&self, is_sketch: bool) -> bool {
+        is_sketch && !self.history.is_in_drag()
+    }
+
+    /// True if the subject that is asked for is wanted soon: a hand is shaping it.
+    pub fn wants_sketch(&self) -> bool {
+        self.is_sketch_requested
     }
 
     /// True if a subject is a clay as far as its strokes are shown.
@@ -130,7 +144,9 @@ impl Session {
 
     /// Asks for a clay as far as its strokes are shown, once nothing else is under way.
     pub fn follow_clay(&mut self) {
-        if self.load.is_none() && self.awaits_clay() && !self.is_as_shown(&self.requested) {
+        let is_asked =
+            self.is_as_shown(&self.requested) && !self.outlives(self.is_sketch_requested);
+        if self.load.is_none() && self.awaits_clay() && !is_asked {
             self.load_subject();
         }
     }
@@ -138,6 +154,8 @@ impl Session {
     /// The subject of the load under way is shown, whole or coarsely.
     pub(super) fn load_is_shown(&mut self) {
         let of = self.load.as_ref().map(|load| &load.of);
+        let is_asked = matches!(of, Some(LoadOf::Subject));
+        self.is_sketch_shown = is_asked && self.is_sketch_requested;
         // A file becomes the document's subject when it is done.
         self.shown_subject = match of {
             Some(LoadOf::Subject) => self.requested.clone(),
@@ -230,6 +248,9 @@ impl Session {
         };
         if matches!(load.of, LoadOf::Beside(_)) {
             return false;
+        }
+        if load.of != LoadOf::Subject {
+            self.is_sketch_requested = false;
         }
         // A message that the load failed is no longer true.
         if let Some(failure) = self.load_failure.take() {

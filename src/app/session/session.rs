@@ -184,10 +184,14 @@ pub struct Session {
     pub files: FileChoice,
     /// The subject that was loaded, or is on its way.
     pub(super) requested: Option<SubjectRef>,
+    /// It is wanted as a sketch, as while a hand shapes a clay.
+    pub(super) is_sketch_requested: bool,
     /// The subject whose load came to nothing.
     pub(super) given_up: Option<SubjectRef>,
     /// The subject that is seen, as the document names it; `None` while a file is seen that is not yet the document's.
     pub(super) shown_subject: Option<SubjectRef>,
+    /// It is seen as a sketch.
+    pub(super) is_sketch_shown: bool,
     /// Rises with every document that is opened.
     pub opened: u64,
     /// The document was kept from the last time; nobody asked for it now.
@@ -290,8 +294,10 @@ impl Session {
             mesh_question: None,
             files: FileChoice::default(),
             requested: None,
+            is_sketch_requested: false,
             given_up: None,
             shown_subject: None,
+            is_sketch_shown: false,
             opened: 0,
             is_restored: false,
             tab: None,

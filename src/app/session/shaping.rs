@@ -434,7 +434,7 @@ mod tests {
     use super::*;
     use crate::app::session::camera;
     use crate::app::session::shape::seen_across;
-    use crate::app::session::{Command, Effect, HandCommand, See};
+    use crate::app::session::{Command, Effect, HandCommand, See, Ticket};
     use crate::data::{Subject, Surface};
     use crate::document::{ClayKey, ClayShape, Document, clay_to_text};
 
@@ -509,6 +509,43 @@ mod tests {
         assert!(strokes(&session).is_empty());
         session.run(Command::Redo, 0.0);
         assert_eq!(strokes(&session).len(), 1);
+    }
+
+    /// What a hand shapes is asked for as a sketch, and when the hand has left as it stays.
+    #[test]
+    fn a_drag_asks_for_sketches_and_its_end_for_the_clay() {
+        let mut session = session();
+        let shows = |session: &mut Session| {
+            session.load_started(Ticket(1));
+            session.load_is_shown();
+            session.load_done(None);
+        };
+        let asks = |session: &mut Session| {
+            session.follow_clay();
+            let effects = session.take_effects();
+            effects
+                .iter()
+                .any(|effect| matches!(effect, Effect::LoadSubject(_)))
+        };
+        assert!(
+            !session.wants_sketch(),
+            "a clay that is begun is asked for at once"
+        );
+        shows(&mut session);
+        for end in [20, 40] {
+            draw(&mut session, StrokeWay::Move, &arc()[..end], false);
+            assert!(asks(&mut session) && session.wants_sketch());
+            shows(&mut session);
+            assert!(!session.awaits_clay(), "the hand goes on");
+            assert!(!asks(&mut session));
+        }
+        // Nothing is changed by the last touch.
+        draw(&mut session, StrokeWay::Move, &arc()[..40], true);
+        assert!(session.awaits_clay());
+        assert!(asks(&mut session) && !session.wants_sketch());
+        assert!(!asks(&mut session), "it is on its way");
+        shows(&mut session);
+        assert!(!session.awaits_clay() && !asks(&mut session));
     }
 
     #[test]

@@ -9,10 +9,13 @@ use crate::math::Aabb;
 /// Voxels along the longest side of the surface's box.
 pub const FIELD_VOXELS: u32 = 128;
 
+/// As many in the field of a sketch: of a surface that is shown while it is still being shaped.
+const SKETCH_VOXELS: u32 = 64;
+
 /// Voxels of the field around the box, on each side.
 pub const FIELD_MARGIN: u32 = 2;
 
-/// How far from triangles the distances are exact, voxels.
+/// How far from triangles the distances are exact, voxels; in a sketch half as far.
 const BAND: f32 = 2.0;
 
 /// Side of the blocks in which open surfaces are filled, voxels.
@@ -50,18 +53,45 @@ pub fn times_inside(set: u128, segment: usize) -> u8 {
     (set >> (2 * segment) & 3) as u8
 }
 
+/// How much work a field is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FieldKind {
+    /// As pictures are drawn by.
+    Whole,
+    /// Half as fine along each side, for a surface that is still being shaped: a tenth of the work.
+    Sketch,
+}
+
+impl FieldKind {
+    /// Voxels along the longest side of the surface's box.
+    fn voxels(self) -> u32 {
+        match self {
+            Self::Whole => FIELD_VOXELS,
+            Self::Sketch => SKETCH_VOXELS,
+        }
+    }
+
+    /// How far from triangles the distances are exact, voxels.
+    fn band(self) -> f32 {
+        match self {
+            Self::Whole => BAND,
+            Self::Sketch => 0.5 * BAND,
+        }
+    }
+}
+
 /// The voxels of a field around a box, without the margin: their number and the length of their sides. Voxels are as
 /// near to cubes as whole numbers of them allow.
-pub(super) fn voxels_of(bounds: &Aabb) -> (UVec3, Vec3) {
+pub(super) fn voxels_of(bounds: &Aabb, kind: FieldKind) -> (UVec3, Vec3) {
     let size = bounds.size();
     let longest = size.max_element();
-    let count = (size / longest * FIELD_VOXELS as f32)
+    let count = (size / longest * kind.voxels() as f32)
         .ceil()
         .max(Vec3::ONE)
         .as_uvec3();
     let spacing = size / count.as_vec3();
     // A flat side has voxels all the same.
-    let flat = longest / FIELD_VOXELS as f32;
+    let flat = longest / kind.voxels() as f32;
     (
         count,
         Vec3::select(
@@ -74,6 +104,8 @@ pub(super) fn voxels_of(bounds: &Aabb) -> (UVec3, Vec3) {
 
 /// A field that is being made.
 pub(super) struct FieldMaker<'a> {
+    /// How far from triangles the distances are exact, voxels.
+    band: f32,
     dims: UVec3,
     spacing: Vec3,
     /// Centre of the first voxel, rest space.
@@ -91,11 +123,12 @@ pub(super) struct FieldMaker<'a> {
 
 impl<'a> FieldMaker<'a> {
     /// Begins a field around a box for these triangles.
-    pub(super) fn new(bounds: &Aabb, triangles: &'a [Triangle]) -> Self {
-        let (count, spacing) = voxels_of(bounds);
+    pub(super) fn new(bounds: &Aabb, triangles: &'a [Triangle], kind: FieldKind) -> Self {
+        let (count, spacing) = voxels_of(bounds, kind);
         let dims = count + 2 * FIELD_MARGIN;
         let origin = bounds.center() - spacing * (dims - 1).as_vec3() * 0.5;
         Self {
+            band: kind.band(),
             dims,
             spacing,
             origin,
@@ -131,10 +164,10 @@ impl<'a> FieldMaker<'a> {
     pub(super) fn add(&mut self, triangle: u32) {
         let bounds = Aabb::from_points(self.triangles[triangle as usize].0);
         let last = (self.dims - 1).as_vec3();
-        let low = ((bounds.min - self.origin) / self.spacing - BAND)
+        let low = ((bounds.min - self.origin) / self.spacing - self.band)
             .ceil()
             .clamp(Vec3::ZERO, last);
-        let high = ((bounds.max - self.origin) / self.spacing + BAND)
+        let high = ((bounds.max - self.origin) / self.spacing + self.band)
             .floor()
             .clamp(Vec3::ZERO, last);
         let (low, high) = (low.as_uvec3(), high.as_uvec3());
@@ -200,7 +233,7 @@ impl<'a> FieldMaker<'a> {
         } else {
             self.in_blocks(&mut sets, go_on)
         }?;
-        let band = BAND * self.spacing.min_element();
+        let band = self.band * self.spacing.min_element();
         let depths = self
             .nearest
             .iter()

@@ -18,7 +18,9 @@ use crate::clay::{MeshFormat, Writing};
 use crate::data::{SubjectSink as _, VolumeBuilder};
 use crate::document::{Clay, ClayVolume, VoxelSource, clay_from_text};
 use crate::load::mesh_among;
-use crate::shell::clays::{ClayDesk, make_clay, make_clay_of_file, make_clay_of_volume, whole};
+use crate::shell::clays::{
+    ClayDesk, Purpose, make_clay, make_clay_of_file, make_clay_of_volume, whole,
+};
 
 thread_local! {
     /// What the last clay's strokes left: a worker rests between strokes.
@@ -44,17 +46,20 @@ pub async fn run(message: JsValue, load: Function) -> Result<(), JsValue> {
     let word = |key: &str| Reflect::get(&message, &key.into()).map(|word| word.as_string());
     let format = word("format")?.and_then(|end| MeshFormat::of_extension(&end));
     let title = word("title")?.unwrap_or_default();
-    DESK.with_borrow_mut(|desk| {
-        desk.take_meshes(&meshes);
-        desk.writes(format.map(|format| Writing { format, title }));
-    });
+    let is_sketch = Reflect::get(&message, &"sketch".into())?.is_truthy();
+    let purpose = match format {
+        Some(format) => Purpose::Write(Writing { format, title }),
+        None if is_sketch => Purpose::Sketch,
+        None => Purpose::Show,
+    };
+    DESK.with_borrow_mut(|desk| desk.take_meshes(&meshes));
     let mut post = |event: LoadEvent| post::event(event).is_ok();
     if clay.file().is_none() {
-        DESK.with_borrow_mut(|desk| make_clay(desk, &clay, &mut post));
+        DESK.with_borrow_mut(|desk| make_clay(desk, &clay, &purpose, &mut post));
         return Ok(());
     }
     if let Some(meant) = clay.volume() {
-        return of_scan(&clay, meant, &message, &load).await;
+        return of_scan(&clay, meant, (&message, &load), &purpose).await;
     }
     let (mut files, name) = match ScanTask::of(&message)? {
         ScanTask::Address { address, .. } => match fetch(&address).await {
@@ -72,7 +77,9 @@ pub async fn run(message: JsValue, load: Function) -> Result<(), JsValue> {
         }
         ScanTask::Mesh(..) | ScanTask::Field { .. } => return Err("a clay without a file".into()),
     };
-    DESK.with_borrow_mut(|desk| make_clay_of_file(desk, &clay, (&mut files, &name), &mut post));
+    DESK.with_borrow_mut(|desk| {
+        make_clay_of_file(desk, &clay, (&mut files, &name), &purpose, &mut post)
+    });
     Ok(())
 }
 
@@ -80,13 +87,13 @@ pub async fn run(message: JsValue, load: Function) -> Result<(), JsValue> {
 async fn of_scan(
     clay: &Arc<Clay>,
     meant: &ClayVolume,
-    message: &JsValue,
-    load: &Function,
+    (message, load): (&JsValue, &Function),
+    purpose: &Purpose,
 ) -> Result<(), JsValue> {
     let mut post = |event: LoadEvent| post::event(event).is_ok();
     // A file that the document names by its hash is known before it is looked at.
     if DESK.with_borrow(|desk| desk.begun(clay, || None)).is_some() {
-        DESK.with_borrow_mut(|desk| make_clay(desk, clay, &mut post));
+        DESK.with_borrow_mut(|desk| make_clay(desk, clay, purpose, &mut post));
         return Ok(());
     }
     if let VoxelSource::File { reading, .. } = &meant.of {
@@ -110,7 +117,7 @@ async fn of_scan(
     }
     match whole(builder, &name) {
         Ok(volume) => DESK.with_borrow_mut(|desk| {
-            make_clay_of_volume(desk, clay, (&volume, &name), sha256, &mut post);
+            make_clay_of_volume(desk, clay, (&volume, &name), sha256, purpose, &mut post);
         }),
         Err(error) => post::event(LoadEvent::Failed {
             message: error.to_string(),

@@ -113,6 +113,8 @@ pub struct ClayTask {
     pub recipe: String,
     /// The grids of its tools that are meshes, by the keys of their files.
     pub meshes: MeshGrids,
+    /// It is still being shaped, and wanted soon.
+    pub is_sketch: bool,
     /// The file that it is to become; `None`: the subject.
     pub writing: Option<Writing>,
 }
@@ -123,6 +125,7 @@ impl ClayTask {
         Self {
             recipe: clay_to_text(clay),
             meshes: want.meshes.clone(),
+            is_sketch: want.is_sketch,
             writing: None,
         }
     }
@@ -230,6 +233,7 @@ impl Task {
             Self::Clay(clay, file) => {
                 set("clay", &clay.recipe.as_str().into())?;
                 set("meshes", &pieces::packed_grids(&clay.meshes))?;
+                set("sketch", &clay.is_sketch.into())?;
                 if let Some(writing) = &clay.writing {
                     set("format", &writing.format.extension().into())?;
                     set("title", &writing.title.as_str().into())?;
