@@ -11,7 +11,8 @@ use super::roomy::Roomy;
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Where a vertex lies, and the normal of the surface there.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::NoUninit)]
+#[repr(C)]
 pub(super) struct Vertex {
     pub(super) pos: Vec3,
     /// Unit length.
@@ -42,13 +43,13 @@ pub(super) struct ClayMesh {
     /// Places and normals before the step that is being done.
     pub(super) vertices: Roomy<Vertex>,
     /// A half-edge that leaves the vertex, of a border vertex the one along the border; [`NONE`]: the place is free.
-    leaving: Roomy<u32>,
+    pub(super) leaving: Roomy<u32>,
     /// Vertices of a triangle, counter-clockwise seen from outside; [`NONE`] first: the place is free.
-    triangles: Roomy<[u32; 3]>,
+    pub(super) triangles: Roomy<[u32; 3]>,
     /// The other half-edge of each half-edge; [`NONE`] at a border.
-    twins: Roomy<[u32; 3]>,
-    free_vertices: Roomy<u32>,
-    free_triangles: Roomy<u32>,
+    pub(super) twins: Roomy<[u32; 3]>,
+    pub(super) free_vertices: Roomy<u32>,
+    pub(super) free_triangles: Roomy<u32>,
 }
 
 /// The half-edge that follows in a triangle.

@@ -25,6 +25,7 @@
 //! | `shaping` | takes the vertices in reach through all steps, and counts what was left out |
 //! | `refine`, `mesh` | split, collapse and flip the edges behind each step |
 //! | `smooth` | does strokes that smooth |
+//! | `kept` | keeps earlier states as differences |
 //! | `way` | carries captions with the same flow, forwards and back |
 //! | `body`, `space`, `write` | give the mesh in millimetres, to be drawn and as files |
 //! | `check`, `bench` | say whether the promises are kept, and at what cost |
@@ -51,6 +52,7 @@ mod body;
 mod check;
 mod error;
 mod field;
+mod kept;
 mod march;
 mod mend;
 mod mesh;
@@ -71,6 +73,7 @@ pub use bench::{ClayBench, bench_clay};
 pub use body::SEGMENT;
 pub use check::{Check, LastStroke, MAX_CROSSING, mesh_sha256};
 pub use error::{ClayError, MAX_FILE_TRIANGLES, MAX_START_TRIANGLES};
+pub use kept::States;
 pub use motion::LeftOut;
 pub use refine::{MAX_TRIANGLES, Work};
 pub use shaping::{Shaped, Shaping};

@@ -30,15 +30,15 @@ const ROUNDS: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Shaping {
     pub(super) mesh: ClayMesh,
-    after: Roomy<Vertex>,
-    moved_in: Roomy<u32>,
-    turned_in: Roomy<u32>,
+    pub(super) after: Roomy<Vertex>,
+    pub(super) moved_in: Roomy<u32>,
+    pub(super) turned_in: Roomy<u32>,
     space: Space,
     /// Number of the step, over all strokes.
     number: u32,
     pub(super) detail: f64,
     /// The vertices that the last stroke moved.
-    touched: Roomy<bool>,
+    pub(super) touched: Roomy<bool>,
     /// Strokes that did nothing, and why.
     left_out: Vec<(usize, LeftOut)>,
     /// The stroke since which there were too many triangles to split edges.
@@ -127,6 +127,23 @@ impl Shaping {
         // So that the first stroke has no more to look at than those after it.
         shaping.is_fine = shaping.long_triangles().is_empty();
         shaping
+    }
+
+    /// All but the mesh and what follows its vertices.
+    pub(super) fn without_lists(&self) -> Self {
+        Self {
+            mesh: ClayMesh::default(),
+            after: Roomy::default(),
+            moved_in: Roomy::default(),
+            turned_in: Roomy::default(),
+            touched: Roomy::default(),
+            space: self.space.clone(),
+            left_out: self.left_out.clone(),
+            start_notices: self.start_notices.clone(),
+            work: self.work.clone(),
+            grids: self.grids.clone(),
+            ..*self
+        }
     }
 
     /// This one with the grids of tools that are meshes.

@@ -11,7 +11,7 @@ use super::loading::slabs_in_turn as slabs;
 use super::loading::{Post, PostingSink, hash_of};
 use super::loading::{is_mesh_file, read_scan};
 use crate::assets::{LoadEvent, Want};
-use crate::clay::{ClayError, Form, MAX_FILE_TRIANGLES, Shaping, Writing};
+use crate::clay::{ClayError, Form, MAX_FILE_TRIANGLES, Shaping, States, Writing};
 use crate::data::{
     DistanceGrid, Mesh, MeshGrids, SubjectPart, SubjectSink, Surface, SurfaceError, Volume,
     VolumeBuilder,
@@ -37,7 +37,8 @@ pub const READING: f32 = 0.5;
 /// Part of the work on a clay that is done when the volume that it begins with is.
 const BEGINNING: f32 = 0.5;
 
-/// Bytes of earlier states that are kept at most, and strokes that they are of.
+/// Bytes of the differences of earlier states that are kept at most, and strokes before the last that they are of. Of
+/// those before one in as many is kept, where there is room.
 const MOST_KEPT: usize = 64 << 20;
 const LAST_STROKES: usize = 50;
 
@@ -49,8 +50,10 @@ pub struct ClayDesk {
     last: Option<Arc<Clay>>,
     /// The grids of its tools that are meshes, by the keys of their files.
     meshes: MeshGrids,
-    /// The clay of `last` after some of its strokes, the latest last.
-    kept: Vec<Shaping>,
+    /// The clay of `last` before some of its strokes.
+    kept: States,
+    /// The clay of `last` after all of them, unless it was stopped.
+    now: Option<Shaping>,
 }
 
 /// What a clay is shaped for.
@@ -133,7 +136,8 @@ impl ClayDesk {
     pub fn take_meshes(&mut self, meshes: &[(String, Arc<DistanceGrid>)]) {
         if self.meshes != meshes {
             self.meshes = meshes.to_vec();
-            self.kept.clear();
+            self.kept = States::default();
+            self.now = None;
         }
     }
 
@@ -289,54 +293,55 @@ impl ClayDesk {
             .last
             .as_ref()
             .and_then(|last| last.strokes_shared(clay));
-        self.kept
-            .retain(|kept| common.is_some_and(|common| kept.done() <= common) && !kept.lacks(clay));
+        let is_early = |done: usize| common.is_some_and(|common| done <= common);
+        let is_stale = |state: &Shaping| !is_early(state.done()) || state.lacks(clay);
+        while self.kept.newest().is_some_and(is_stale) {
+            self.kept.pop();
+        }
+        self.now.take_if(|now| is_stale(now));
         self.start.take_if(|start| !start.is_of(clay));
         self.last = Some(Arc::clone(clay));
         let all = clay.strokes.len();
         let mut begun = 0.0;
-        let mut shaping = match self.kept.last().cloned() {
-            Some(kept) => kept,
+        let earlier = || self.kept.newest().cloned();
+        let mut shaping = match self.now.take().or_else(earlier) {
+            Some(shaping) => shaping,
             None => self.untouched(clay, &mut |part| {
                 begun = BEGINNING;
                 go_on(BEGINNING * part)
             })?,
         };
         shaping = shaping.with_meshes(&self.meshes);
-        self.keep(&shaping, all);
         while shaping.done() < all {
+            self.keep(&shaping, all);
             let done = shaping.done() as f32;
             shaping.stroke(clay, &mut |part| {
                 go_on(begun + (1.0 - begun) * (done + part) / all as f32)
             })?;
-            self.keep(&shaping, all);
         }
-        // What was shaped last is always kept.
-        self.kept.last().ok_or(ClayError::Stopped)
+        Ok(self.now.insert(shaping))
     }
 
     /// Bytes of the states that are kept, of the start and of the grids of tools.
     pub fn bytes(&self) -> usize {
         let start = self.start.iter().map(|start| &start.shaping);
-        let states = self.kept.iter().chain(start).map(Shaping::bytes);
+        let states = self.now.iter().chain(start).map(Shaping::bytes);
         let grids = self.meshes.iter().map(|(_, grid)| grid.values().len() * 4);
-        states.chain(grids).sum()
+        states.chain(grids).sum::<usize>() + self.kept.bytes()
     }
 
-    /// Keeps a state, if it is one of the last, in place of the earliest ones where there is no room.
+    /// Keeps a state before its next stroke, in place of the earliest ones where there is no room.
     fn keep(&mut self, shaping: &Shaping, all: usize) {
         let is_here = self
             .kept
-            .last()
+            .newest()
             .is_some_and(|kept| kept.done() == shaping.done());
-        if is_here || shaping.done() + LAST_STROKES < all {
+        let is_last = shaping.done() + LAST_STROKES >= all;
+        if is_here || !(is_last || shaping.done().is_multiple_of(LAST_STROKES)) {
             return;
         }
-        self.kept.push(shaping.clone());
-        let mut bytes: usize = self.kept.iter().map(Shaping::bytes).sum();
-        while bytes > MOST_KEPT && self.kept.len() > 1 {
-            bytes -= self.kept.remove(0).bytes();
-        }
+        self.kept.push(shaping);
+        self.kept.keep_to(MOST_KEPT);
     }
 }
 

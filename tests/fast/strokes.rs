@@ -70,8 +70,13 @@ fn two_thousand_strokes_are_done_and_taken_back() {
     let clay = clay(many(Clay::MAX_STROKES));
     let mut desk = ClayDesk::default();
     let all = check(&mut desk, &clay);
-    println!("{} triangles, {} bytes", all.triangles, desk.bytes());
-    assert!(desk.bytes() <= MOST_KEPT, "{}", desk.bytes());
+    let now = desk
+        .shape(&clay, &mut |_| true)
+        .expect("it is there")
+        .bytes();
+    let kept = desk.bytes() - now;
+    println!("{} triangles, {kept} bytes are kept", all.triangles);
+    assert!(kept <= MOST_KEPT, "{kept}");
     // The last are taken back without a replay, and are what they were.
     for strokes in (1970..2000).rev() {
         let back = desk.shape(&clay.cut(strokes), &mut |_| panic!("a replay to {strokes}"));
@@ -91,6 +96,49 @@ fn two_thousand_strokes_are_done_and_taken_back() {
         refused.starts_with("/subject/clay/strokes: 2001"),
         "{refused}"
     );
+}
+
+/// Fifty strokes on a clay of which as many copies would take ten times the room.
+#[test]
+fn fifty_strokes_on_a_large_clay_are_taken_back_without_a_replay() {
+    let mut recipe = many(53);
+    recipe["detail"] = json!(0.008);
+    // All of it is moved a little, and so refined.
+    let tools = recipe["tools"].as_array_mut();
+    tools.expect("tools").push(json!({ "radius": 0.6 }));
+    recipe["strokes"][0] = json!({ "tool": 1, "path": [0, 0, 0, 0, 0, 10] });
+    let clay = clay(recipe);
+    let mut desk = ClayDesk::default();
+    let shaped = desk.shape(&clay, &mut |_| true);
+    let now = shaped.expect("it is shaped").bytes();
+    let kept = desk.bytes() - now;
+    println!("{kept} bytes are kept beside {now}");
+    assert!(kept <= MOST_KEPT, "{kept}");
+    assert!(
+        50 * now > 5 * MOST_KEPT,
+        "the clay is too small to tell: {now}"
+    );
+    for strokes in (3..53).rev() {
+        let back = desk.shape(&clay.cut(strokes), &mut |_| panic!("a replay to {strokes}"));
+        back.expect("it is there");
+    }
+    let back = check(&mut desk, &clay.cut(3)).sha256;
+    assert_eq!(back, check(&mut ClayDesk::default(), &clay.cut(3)).sha256);
+}
+
+/// A long replay that is stopped goes on from fifty strokes before at most.
+#[test]
+fn a_long_replay_goes_on_from_the_last_state_of_fifty() {
+    let clay = clay(many(400));
+    let mut desk = ClayDesk::default();
+    assert!(desk.shape(&clay, &mut |part| part < 0.7).is_err());
+    let mut first = None;
+    let mut hear = |part: f32| {
+        first.get_or_insert(part);
+        true
+    };
+    desk.shape(&clay, &mut hear).expect("it goes on");
+    assert!(first.is_some_and(|first| first > 0.55), "{first:?}");
 }
 
 /// Wherever a replay is stopped, what was done is kept, and the clay becomes what it would have become; undo as well.
