@@ -94,8 +94,12 @@ fn leap(ray: Ray, walk: ptr<function, Walk>) {
         if content.y == 0u || (*walk).before.opacity > VISIBLE {
             break;
         }
-        (*walk).t = max((*walk).t_cell, (*walk).t + frame.step * 0.01);
-        (*walk).t_before = (*walk).t;
+        (*walk).t_before = max((*walk).t_cell, (*walk).t + frame.step * 0.01);
+        // The samples of a ray lie on one row of places, whatever it leaps over, and the row begins elsewhere for each
+        // sample of a pixel. If the steps began anew where a cell begins, they would be seen as layers wherever tissue
+        // grows denser over several of them.
+        let steps = ceil(((*walk).t_before - ray.t_start) / frame.step - frame.first_step);
+        (*walk).t = ray.t_start + (steps + frame.first_step) * frame.step;
         (*walk).mask_before = 0u;
     }
 }

@@ -604,6 +604,61 @@ fn a_right_drag_over_a_slice_changes_window_and_level() {
     assert_eq!(shown(&window), Some(by_key));
 }
 
+/// Two fingers that go together over a slice do what the right button does, in one step of undo.
+#[test]
+fn two_fingers_over_a_slice_change_window_and_level() {
+    let shown = |window: &Window| match window.document().illustration().look.window {
+        ValueWindow::Range(range) => Some(range),
+        ValueWindow::Auto => None,
+    };
+    let mut window = Window::open(FOUR, CUBE);
+    window.press(Key::V);
+    window.settle();
+    let untouched = window.document();
+    let middle = slice_rect(&window, "Axial").center();
+    let drag = |window: &mut Window, by: Vec2| {
+        // The first finger is the pointer too, as the window's system and the page tell it.
+        let fingers = |window: &mut Window, part: f32, phase: egui::TouchPhase| {
+            let first = middle + vec2(-25.0, 0.0) + by * part;
+            window.harness.event(egui::Event::PointerMoved(first));
+            if phase != egui::TouchPhase::Move {
+                let pressed = phase == egui::TouchPhase::Start;
+                window.harness.event(egui::Event::PointerButton {
+                    pos: first,
+                    button: egui::PointerButton::Primary,
+                    pressed,
+                    modifiers: Modifiers::NONE,
+                });
+            }
+            for (id, beside) in [(1, 0.0), (2, 50.0)] {
+                window.harness.event(egui::Event::Touch {
+                    device_id: egui::TouchDeviceId(1),
+                    id: egui::TouchId::from(id),
+                    phase,
+                    pos: first + vec2(beside, 0.0),
+                    force: None,
+                });
+            }
+            window.harness.step();
+        };
+        fingers(window, 0.0, egui::TouchPhase::Start);
+        for i in 1..=8 {
+            fingers(window, i as f32 / 8.0, egui::TouchPhase::Move);
+        }
+        fingers(window, 1.0, egui::TouchPhase::End);
+        window.settle();
+        shown(window).expect("a window of its own")
+    };
+    let width = |[from, to]: [f32; 2]| to - from;
+    let raised = drag(&mut window, vec2(0.0, 40.0));
+    let wider = drag(&mut window, vec2(40.0, 0.0));
+    assert!(width(wider) > 1.1 * width(raised), "{raised:?} {wider:?}");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(shown(&window), Some(raised), "a drag is one step of undo");
+    window.press_with(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.document(), untouched);
+}
+
 /// What is known of the scan stands in one place, in the words of the field.
 #[test]
 fn the_facts_of_the_scan_are_told() {

@@ -2,11 +2,14 @@
 //! has there.
 
 use crate::cli::fabrica_with;
+use crate::data::data_folder;
 use crate::gpu::{builtin, gpu, studio_of};
+use crate::scans::read_volume_at;
 use crate::scatter::Random;
 use fabrica::clay::Way;
-use fabrica::data::Grids;
+use fabrica::data::{Grids, VolumeBuilder};
 use fabrica::document::{Align, Document, Illustration, SubjectRef, TemplateKind};
+use fabrica::load::{LoadReport, ReadOptions};
 use fabrica::render::{Studio, View, caption_places};
 use glam::{Vec2, Vec3};
 
@@ -273,6 +276,79 @@ fn every_caption_is_asked_whether_it_is_in_sight() {
     assert_eq!(hidden.len(), 240);
     assert_eq!(hidden.iter().position(|is| *is), Some(120));
     assert!(hidden[120..].iter().all(|is| *is));
+}
+
+/// A ball is pressed into the side of a head, and another one beside it holds what is in it: forwards in one step, and
+/// back in the next.
+const PRESSED: &str = r#"{ "fabrica": 1, "subject": { "src": "head_t1.nii.gz" },
+    "templates": [{ "kind": "sweep", "size": [1, 1, 1], "params": { "progress": 0, "tools": [
+        { "radius": 0.09, "coat": 0.2, "path": [[1.02, 0.55, 0.45], [0.72, 0.55, 0.45]] },
+        { "radius": 0.09, "coat": 0.12, "path": [[0.85, 0.72, 0.72]] }] } }],
+    "labels": [{ "at": [0.3, 0.05, -0.05], "text": "Pressed in" }, { "at": [0.35, 0.22, 0.22], "text": "Held" },
+        { "at": [0.25, 0.16, 0.05], "text": "Between" }],
+    "steps": [{ "set": { "/templates/0/params/progress": 1 }, "seconds": 2 },
+        { "set": { "/templates/0/params/progress": 0 }, "seconds": 2 }] }"#;
+
+/// The captions of a real scan stay on their tissue while a tool is pressed into it and drawn back, and what another
+/// tool holds stays in its place.
+#[test]
+fn captions_of_a_scan_stay_on_their_tissue_under_tools() {
+    let test = "captions::captions_of_a_scan_stay_on_their_tissue_under_tools";
+    let Some(folder) = data_folder(test) else {
+        return;
+    };
+    let mut builder = VolumeBuilder::new();
+    let (options, mut report) = (ReadOptions::default(), LoadReport::default());
+    let path = folder.join("mri/head_t1.nii.gz");
+    read_volume_at(&path, &options, &mut builder, &mut report).expect("a readable scan");
+    let studio = studio_of(gpu(), &builder.finish().expect("a whole volume"), false);
+    let document = Document::from_json(PRESSED).expect("a good document");
+    assert_eq!(document.notices(), []);
+    let captions = &document.illustration().captions;
+    let rest: Vec<Vec3> = captions.iter().map(|caption| caption.at).collect();
+    let mut places = Vec::new();
+    for (step, seconds) in [(0, 9.0), (1, 0.7), (1, 9.0), (2, 1.3), (2, 9.0)] {
+        let shown = document.at_time(step, seconds).expect("a step");
+        let found = pollster::block_on(studio.follow_points(&shown, &rest)).expect("places");
+        let found: Vec<Vec3> = found
+            .into_iter()
+            .map(|at| at.expect("it is there"))
+            .collect();
+        let samples = pollster::block_on(studio.probe_object(&shown, &found)).expect("samples");
+        for ((rest, place), sample) in rest.iter().zip(&found).zip(samples) {
+            let off = sample.pos_in_rest.distance(*rest);
+            assert!(
+                off < FARTHEST,
+                "{rest} at {place} is off by {off} in step {step}"
+            );
+        }
+        places.push(found);
+    }
+    let [before, early, all, late, after] = &places[..] else {
+        panic!("five pictures")
+    };
+    assert_eq!(before, &rest);
+    assert_eq!(after, before, "it went back");
+    let way = |found: &[Vec3], i: usize| found[i].distance(rest[i]);
+    println!(
+        "{:?}",
+        places
+            .iter()
+            .map(|f| [way(f, 0), way(f, 1), way(f, 2)])
+            .collect::<Vec<_>>()
+    );
+    assert!(
+        way(early, 0) > 0.01 && way(all, 0) > way(early, 0),
+        "it is pressed in"
+    );
+    assert!(way(late, 0) < way(all, 0), "it comes back");
+    for found in &places {
+        assert!(way(found, 1) < 1e-4, "what is held stays");
+    }
+    assert!(
+        way(all, 2) > 1e-3 && way(all, 2) < way(all, 0),
+        "between them tissue gives way a little"
+    );
 }
 
 /// Two ears in four strokes, a muzzle, a tail and feet; the caption stands where an ear is pulled out of the ball.

@@ -2,10 +2,13 @@
 //!
 //! `FABRICA_BLESS=name cargo test --test gpu images::` writes a snapshot anew (`all` for every one).
 
+use crate::data::data_folder;
 use crate::figures::figure_image;
 use crate::gpu::{builtin, open_software, software, studio_of, uniform_volume};
+use crate::scans::read_volume_at;
 use fabrica::data::{Subject, SubjectPart, SubjectSink as _, Volume, VolumeBuilder};
 use fabrica::document::{Document, Illustration};
+use fabrica::load::{LoadReport, ReadOptions};
 use fabrica::render::{
     Image, RenderError, Renderer, Studio, encode_png, render_image, system_clock,
 };
@@ -139,6 +142,33 @@ fn smooth_skin_shows_no_layers_of_voxels() {
     println!("{first:.2} and {second:.2} levels");
     assert!(first > 0.8, "the first revision shows them: {first}");
     assert!(second < 0.35 * first, "{second} of {first}");
+}
+
+/// The steps of the march leave layers where tissue grows denser over several of them: in the MRI of a head, whose skin
+/// has no sharp border, they are plain at one sample. Each sample of a pixel has its steps elsewhere, so that they are
+/// lost in the mean.
+#[test]
+fn layers_of_steps_are_lost_in_the_mean() {
+    let Some(folder) = data_folder("images::layers_of_steps_are_lost_in_the_mean") else {
+        return;
+    };
+    let (mut builder, mut report) = (VolumeBuilder::new(), LoadReport::default());
+    let path = folder.join("mri/head_t1.nii.gz");
+    read_volume_at(&path, &ReadOptions::default(), &mut builder, &mut report)
+        .expect("a readable scan");
+    let studio = studio_of(software(), &builder.finish().expect("a whole volume"), true);
+    let temple = illustration(
+        r#"{ "fabrica": 1, "camera": { "rotate": [0.0501, 0.02, 0.5514, 0.8325], "distance": 1.1, "target": [0.25, 0.1, 0] } }"#,
+    );
+    let [one, eight] = [1, 8].map(|samples| {
+        let image = pollster::block_on(studio.render_image(&temple, [450, 450], samples));
+        let image = image.expect("a picture");
+        [[240, 360], [300, 370], [350, 390]].map(|at| variation(&image, at))
+    });
+    println!("{one:.2?} and {eight:.2?} levels");
+    for (one, eight) in one.into_iter().zip(eight) {
+        assert!(eight < 0.5 * one, "{eight} of {one}");
+    }
 }
 
 /// Haze of 1 % per 0.01 units.

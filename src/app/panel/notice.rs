@@ -61,7 +61,9 @@ pub(crate) fn ui(
         } else if figure.is_stopped {
             stopped_ui(ui, commands);
         }
-        if let Some(load) = &session.load {
+        // A hand that shapes clay asks for one sketch after the other: a bar for each would flicker.
+        let is_sketch = session.wants_sketch();
+        if let Some(load) = session.load.as_ref().filter(|_| !is_sketch) {
             load_ui(ui, load, commands);
         } else if session.is_reading {
             card(ui, Palette::get(ui).line, |ui| ui.label(w().loading));
