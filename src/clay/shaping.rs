@@ -137,10 +137,10 @@ impl Shaping {
             moved_in: Roomy::default(),
             turned_in: Roomy::default(),
             touched: Roomy::default(),
-            space: self.space.clone(),
+            space: self.space,
             left_out: self.left_out.clone(),
             start_notices: self.start_notices.clone(),
-            work: self.work.clone(),
+            work: self.work,
             grids: self.grids.clone(),
             ..*self
         }

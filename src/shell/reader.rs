@@ -773,7 +773,7 @@ impl Shown {
 
 /// What has to be done for a want.
 enum Way {
-    Start(Task),
+    Start(Box<Task>),
     Ask(String, String),
     File(String),
     Fail(String),
@@ -935,10 +935,10 @@ impl Inner {
     fn way(&self, stock: u32, want: &Want) -> Way {
         match &want.source {
             Source::Builtin { name, revision } => {
-                return Way::Start(builtin_task((name, *revision), want));
+                return Way::Start(Box::new(builtin_task((name, *revision), want)));
             }
             Source::Clay(clay) if !want.has_file() => {
-                return Way::Start(Task::Clay(ClayTask::of(clay, want), None));
+                return Way::Start(Box::new(Task::Clay(ClayTask::of(clay, want), None)));
             }
             Source::Clay(_) | Source::File { .. } => {}
         }
@@ -953,7 +953,7 @@ impl Inner {
         match absolute(src, base) {
             Ok(address) => match foreign_host(&address) {
                 Some(host) if !self.allowed_hosts.contains(&host) => Way::Ask(address, host),
-                _ => Way::Start(address_task(address, &at_base(want, base))),
+                _ => Way::Start(Box::new(address_task(address, &at_base(want, base)))),
             },
             Err(why) => Way::Fail(why),
         }
