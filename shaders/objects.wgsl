@@ -42,11 +42,17 @@ fn object_on(origin: vec3f, way: vec3f, after: f32, until: f32) -> ObjectCrossin
         let start = from_after + along * span.x;
         var index = select(objects.items[k].node_count, 0u, span.x <= span.y);
         while index < objects.items[k].node_count {
-            let node = tree_node(object_texel(nodes_at + ROOT_TEXELS + index), index, root);
-            let inner = part_in_box(start, inverse_along, node.low, node.high, found.part - first);
-            let is_met = inner.x <= inner.y;
-            var left = select(0u, node.count, is_met);
-            var triangle = node.first;
+            // On to the next leaf (see `first_crossing` in subject/crossing.wgsl).
+            var left = 0u;
+            var triangle = 0u;
+            while left == 0u && index < objects.items[k].node_count {
+                let node = tree_node(object_texel(nodes_at + ROOT_TEXELS + index), index, root);
+                let inner = part_in_box(start, inverse_along, node.low, node.high, found.part - first);
+                let is_met = inner.x <= inner.y;
+                left = select(0u, node.count, is_met);
+                triangle = node.first;
+                index = max(select(node.skip, index + 1u, is_met), index + 1u);
+            }
             while left > 0u {
                 left--;
                 let crossing = line_crossing(
@@ -62,7 +68,6 @@ fn object_on(origin: vec3f, way: vec3f, after: f32, until: f32) -> ObjectCrossin
                 }
                 triangle++;
             }
-            index = max(select(node.skip, index + 1u, is_met), index + 1u);
         }
     }
     return found;

@@ -172,8 +172,6 @@ struct MeshLook {
     segments: array<MeshSegment, 64>,
     /// The layers of all segments; segments with the same layers share them.
     layers: array<MeshLayer, 64>,
-    /// 1 if a segment is a shell.
-    has_shells: u32,
     /// 1 if a segment fills any place.
     has_filled: u32,
 }

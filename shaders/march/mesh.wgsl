@@ -188,7 +188,7 @@ fn plan(ray: Ray, walk: ptr<function, MeshWalk>, errand: ptr<function, Errand>) 
     let here = (*walk).here;
     let cell = cell_on_ray(ray, here.t);
     let t_out = bitcast<f32>(cell.z);
-    let is_moved = (cell.x != 0u && drawn_kinds != 0u) || mesh_look.has_shells != 0u;
+    let is_moved = (cell.x != 0u && drawn_kinds != 0u) || has_shells != 0u;
     if cell.y != 0u && has_grid != 0u && grid.is_used != 0u {
         (*walk).here = unmoved_spot(ray, max(t_out, here.t + 0.00002));
         (*walk).mask = 0u;
@@ -202,7 +202,7 @@ fn plan(ray: Ray, walk: ptr<function, MeshWalk>, errand: ptr<function, Errand>) 
         (*errand).t = here.t;
         (*errand).mask = cell.x;
     } else {
-        let is_in_shell = mesh_look.has_shells != 0u && field_at(here.pos) > 0.0;
+        let is_in_shell = has_shells != 0u && field_at(here.pos) > 0.0;
         let free = max(here.clearance, LONGEST_CHORD) / (1.25 * max((*walk).stretch, 0.25));
         let longest = select(LONGEST_STEP, SHELL_STEP, is_in_shell);
         let wanted = min((*walk).step, select(min(free, longest), GAP_STEP, here.continuity < 0.0));
@@ -474,11 +474,24 @@ fn is_lid_of_shell(triangle: u32) -> bool {
     return owner >= LID && mesh_look.segments[owner & ~LID].kind == BODY_THICK;
 }
 
+/// True if rays may be bent, or meet the rims of shells: `next_met` has errands then.
+fn has_errands() -> bool {
+    return drawn_kinds != 0u || has_shells != 0u;
+}
+
 /// Goes straight on, from empty cells to cells that hold something, to the next triangle or as far as no template
-/// reaches. All of it can be done by `next_met`, with much more ado: most rays begin so, and many end so.
+/// reaches. All of it can be done by errands, with much more ado: most rays begin so, and many end so.
 fn next_straight(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) -> Met {
     var met = met_nothing((*walk).here, 0u);
-    var is_straight = (*walk).mask == 0u && mesh_look.has_shells == 0u && !((*walk).is_at_eye && ray.t_start <= 0.0);
+    let is_at_eye = (*walk).is_at_eye && ray.t_start <= 0.0;
+    var is_straight = (*walk).mask == 0u && has_shells == 0u && !(is_at_eye && has_errands());
+    var starts = is_at_eye && !has_errands();
+    while starts {
+        starts = false;
+        met.segment = filled_at((*walk).here.pos);
+        met.is_met = met.segment != 0u;
+        is_straight = !met.is_met;
+    }
     while is_straight {
         let t = (*walk).here.t;
         let cell = cell_on_ray(ray, t);
@@ -518,7 +531,7 @@ fn next_met(ray: Ray, walk: ptr<function, MeshWalk>, steps: ptr<function, u32>) 
     (*walk).is_at_eye = false;
     // A lid of a shell that is crossed: if the shell is there, its rim is met.
     var rim = met;
-    while !met.is_met {
+    while has_errands() && !met.is_met {
         let is_at_rim = errand.task == RIMS;
         if errand.task == PLANS {
             if *steps >= MAX_STEPS || (*walk).here.t >= ray.t_end {

@@ -11,6 +11,8 @@ override has_edges: u32 = 0u;
 override has_ghost: u32 = 0u;
 /// 1 if the edges of a mesh's triangles are drawn.
 override has_wires: u32 = 0u;
+/// 1 if a segment of meshes is a shell.
+override has_shells: u32 = 1u;
 /// 1 if the key light is a lamp of some width.
 override has_lamp: u32 = 0u;
 /// 1 if segments are drawn as bodies of their own.

@@ -17,11 +17,18 @@ fn first_crossing(start: vec3f, end: vec3f, skipped: u32, sees_shells: bool) -> 
     let root = mesh_root();
     var index = 0u;
     while index < subject.node_count {
-        let node = mesh_node(index, root);
-        let span = part_in_box(start, inverse_way, node.low, node.high, found.part);
-        let is_met = span.x <= span.y;
-        var left = select(0u, node.count, is_met);
-        var triangle = node.first;
+        // On to the next leaf that is met: nodes and triangles are tested in loops of their own, since processors that
+        // run several rays at once go through the tests of both wherever one loop holds them.
+        var left = 0u;
+        var triangle = 0u;
+        while left == 0u && index < subject.node_count {
+            let node = mesh_node(index, root);
+            let span = part_in_box(start, inverse_way, node.low, node.high, found.part);
+            let is_met = span.x <= span.y;
+            left = select(0u, node.count, is_met);
+            triangle = node.first;
+            index = select(node.skip, index + 1u, is_met);
+        }
         while left > 0u {
             left--;
             let crossing = crossing_of(triangle, start, way);
@@ -32,7 +39,6 @@ fn first_crossing(start: vec3f, end: vec3f, skipped: u32, sees_shells: bool) -> 
             }
             triangle++;
         }
-        index = select(node.skip, index + 1u, is_met);
     }
     return found;
 }

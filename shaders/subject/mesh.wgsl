@@ -103,11 +103,17 @@ fn set_beside(times: vec4u, place: vec3f, middle: vec3f) -> vec4u {
     let root = mesh_root();
     var index = 0u;
     while index < subject.node_count {
-        let node = mesh_node(index, root);
-        let span = part_in_box(place, inverse_way, node.low, node.high, 1.0);
-        let is_met = span.x <= span.y;
-        var left = select(0u, node.count, is_met);
-        var triangle = node.first;
+        // On to the next leaf (see `first_crossing`).
+        var left = 0u;
+        var triangle = 0u;
+        while left == 0u && index < subject.node_count {
+            let node = mesh_node(index, root);
+            let span = part_in_box(place, inverse_way, node.low, node.high, 1.0);
+            let is_met = span.x <= span.y;
+            left = select(0u, node.count, is_met);
+            triangle = node.first;
+            index = select(node.skip, index + 1u, is_met);
+        }
         while left > 0u {
             left--;
             let crossing = crossing_of(triangle, place, way);
@@ -122,7 +128,6 @@ fn set_beside(times: vec4u, place: vec3f, middle: vec3f) -> vec4u {
             }
             triangle++;
         }
-        index = select(node.skip, index + 1u, is_met);
     }
     return vec4u(more[0], more[1], more[2], more[3]);
 }
@@ -208,11 +213,17 @@ fn to_nearest(rest: vec3f, within: f32, segment: u32) -> vec4f {
     let root = mesh_root();
     var index = 0u;
     while index < subject.node_count {
-        let node = mesh_node(index, root);
-        let away = clamp(rest, node.low, node.high) - rest;
-        let is_near = dot(away, away) < nearest.w * nearest.w;
-        var left = select(0u, node.count, is_near);
-        var triangle = node.first;
+        // On to the next leaf (see `first_crossing`).
+        var left = 0u;
+        var triangle = 0u;
+        while left == 0u && index < subject.node_count {
+            let node = mesh_node(index, root);
+            let away = clamp(rest, node.low, node.high) - rest;
+            let is_near = dot(away, away) < nearest.w * nearest.w;
+            left = select(0u, node.count, is_near);
+            triangle = node.first;
+            index = select(node.skip, index + 1u, is_near);
+        }
         while left > 0u {
             left--;
             let way = nearest_on(triangle, rest) - rest;
@@ -222,7 +233,6 @@ fn to_nearest(rest: vec3f, within: f32, segment: u32) -> vec4f {
             }
             triangle++;
         }
-        index = select(node.skip, index + 1u, is_near);
     }
     return nearest;
 }

@@ -299,6 +299,7 @@ impl Scene {
                 .and_then(|table| table.light)
                 .is_some_and(|light| light.soft > 0.0),
             has_ghost: table.is_some_and(|table| table.ghost < 1.0),
+            has_shells: self.inputs.mesh_look.get().has_shells(),
             has_wires: table.is_some_and(|table| table.has_wires),
             has_edges: table.is_some_and(|table| table.gradient > 0.0),
             finds: match self.style() {

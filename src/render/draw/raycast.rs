@@ -52,6 +52,7 @@ impl RaycastPasses {
             ("has_edges", number(key.has_edges)),
             ("has_ghost", number(key.has_ghost)),
             ("has_wires", number(key.has_wires)),
+            ("has_shells", number(key.has_shells)),
             ("has_lamp", number(key.has_lamp)),
             ("has_bodies", number(key.has_bodies)),
             key.textures_constant(false),

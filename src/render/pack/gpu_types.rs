@@ -640,12 +640,10 @@ pub struct MeshLook {
     pub segments: [MeshSegment; MESH_SEGMENTS],
     /// The layers of all segments.
     pub layers: [MeshLayer; MESH_LAYERS],
-    /// 1 if a segment is a shell.
-    pub has_shells: u32,
     /// 1 if a segment fills any place.
     pub has_filled: u32,
     /// To the next row of four.
-    pub padding: [u32; 2],
+    pub padding: [u32; 3],
 }
 
 impl Default for MeshLook {

@@ -11,6 +11,13 @@ use crate::document::{BodyKind, Look};
 /// Stands for a colour that is not given.
 const NO_COLOR: [f32; 4] = [0.0, 0.0, 0.0, -1.0];
 
+impl MeshLook {
+    /// True if a segment is a shell.
+    pub(crate) fn has_shells(&self) -> bool {
+        self.segments.iter().any(|own| own.kind == BODY_THICK)
+    }
+}
+
 /// What `look` says of the segments of meshes, alone or beside a volume. Layers beyond what the shaders hold are left
 /// out.
 pub(crate) fn mesh_look_of(
@@ -50,7 +57,6 @@ pub(crate) fn mesh_look_of(
             BodyKind::Solid => BODY_FULL,
             BodyKind::Hollow | BodyKind::Auto => BODY_HOLLOW,
         };
-        packed.has_shells |= u32::from(kind == BODY_THICK);
         packed.has_filled |= u32::from(kind != BODY_HOLLOW);
         *slot = MeshSegment {
             color: color_of(own.color_srgb),
@@ -120,7 +126,8 @@ mod tests {
         );
         assert_eq!([bone.thickness, skin.gloss], [0.05, 0.9]);
         assert_eq!(look.layers[1].grain, 0.2);
-        assert_eq!([look.has_shells, look.has_filled], [1, 1]);
+        assert!(look.has_shells());
+        assert_eq!(look.has_filled, 1);
     }
 
     #[test]

@@ -27,6 +27,8 @@ pub(crate) struct RaycastKey {
     pub has_ghost: bool,
     /// The edges of a mesh's triangles are drawn.
     pub has_wires: bool,
+    /// A segment of meshes is a shell.
+    pub has_shells: bool,
     /// The key light is a lamp of some width.
     pub has_lamp: bool,
     /// Segments are drawn as bodies of their own.
