@@ -474,6 +474,56 @@ fn shift_on_the_way_keeps_to_an_axis() {
     assert_eq!(window.strokes()[1].smooth, Some(50));
 }
 
+/// Up pulls, from inside the clay; with Alt it pushes, from outside, wherever on the way the key goes down.
+#[test]
+fn alt_turns_push_and_pull_over() {
+    let mut window = Window::with_clay_tool(0);
+    window.run_command(fabrica::app::Command::Hand(HandCommand::Hold(HeldTool {
+        way: StrokeWay::Push,
+        ..HeldTool::default()
+    })));
+    let (middle, by) = (window.picture_center(), vec2(0.0, -60.0));
+    let alt = |window: &mut Window, modifiers| {
+        window
+            .harness
+            .event(egui::Event::ModifiersChanged(modifiers));
+        window.steps(2);
+    };
+    // The viewer stands at the front, where y is positive.
+    let mut drawn = |alt_before: bool, alt_after: bool| {
+        if alt_before {
+            alt(&mut window, Modifiers::ALT);
+        }
+        window.drag_on(middle, by, 4);
+        if alt_after != alt_before {
+            let modifiers = if alt_after {
+                Modifiers::ALT
+            } else {
+                Modifiers::NONE
+            };
+            alt(&mut window, modifiers);
+        }
+        window.harness.drop_at(middle + by);
+        window.steps(2);
+        alt(&mut window, Modifiers::NONE);
+        window.wait_for_strokes(1);
+        let stroke = window.strokes().remove(0);
+        window.undo();
+        window.wait_for_strokes(0);
+        let [from, to] = &stroke.moves[0].keys[..] else {
+            panic!("a way: {stroke:?}")
+        };
+        [from.at[1], to.at[1] - from.at[1]]
+    };
+    let [inside, pulled] = drawn(false, false);
+    assert!(inside < 500 && pulled > 100, "{inside} {pulled}");
+    for (before, after) in [(true, true), (false, true)] {
+        let [outside, pushed] = drawn(before, after);
+        assert!(outside > 550 && pushed == -pulled, "{outside} {pushed}");
+    }
+    assert_eq!(drawn(true, false), [inside, pulled], "Alt was let go");
+}
+
 #[test]
 fn a_stroke_is_moved_in_the_list() {
     let mut window = Window::open(DESK, PULLED);

@@ -56,8 +56,8 @@ pub(crate) struct ShapingHand {
     spots: Vec<Pos2>,
     /// The surface was asked for under as many of these.
     asked: usize,
-    /// As many touches has the session heard of, and the last of them.
-    told: Option<(usize, Touch)>,
+    /// The session has heard of this way, of as many touches, and of the last of them.
+    told: Option<(StrokeWay, usize, Touch)>,
     is_over: bool,
     /// Its way is kept to one axis of the picture.
     is_straight: bool,
@@ -180,8 +180,10 @@ impl ShapingHand {
         }
         let here = response.interact_pointer_pos().filter(|_| !self.is_over);
         if !self.is_over {
+            let modifiers = ui.input(|i| i.modifiers);
             // Before the press Shift smooths.
-            self.is_straight = self.way == StrokeWay::Move && ui.input(|i| i.modifiers.shift);
+            self.is_straight = self.way == StrokeWay::Move && modifiers.shift;
+            self.way = self.way.with_alt(modifiers.alt);
         }
         let last = self.spots.last().copied();
         let is_far = |pos: &Pos2| last.is_none_or(|last| last.distance(*pos) >= STEP);
@@ -346,7 +348,7 @@ impl ShapingHand {
             return;
         };
         let is_over = self.is_over && !(follows && self.pick.is_some());
-        let told = touches.last().map(|last| (touches.len(), *last));
+        let told = touches.last().map(|last| (self.way, touches.len(), *last));
         // A hand that rests changes nothing.
         if told == self.told && !is_over {
             return;

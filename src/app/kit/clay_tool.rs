@@ -10,7 +10,7 @@ pub(crate) fn way_title(way: StrokeWay) -> (&'static str, &'static str) {
     let w = w();
     match way {
         StrokeWay::Move => (w.r#move, w.move_hint),
-        StrokeWay::Push => (w.push, w.push_hint),
+        StrokeWay::Push | StrokeWay::PushOver => (w.push, w.push_hint),
         StrokeWay::Along => (w.along, w.along_hint),
         StrokeWay::Turn => (w.turn, w.turn_hint),
         StrokeWay::Grow => (w.grow, w.grow_hint),

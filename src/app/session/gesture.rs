@@ -84,8 +84,12 @@ pub(super) fn gesture(
             keys.dedup_by_key(|key| key.at);
             (keys, is_straight)
         }
-        StrokeWay::Push => {
-            // Up pulls.
+        StrokeWay::Push | StrokeWay::PushOver => {
+            // Up pulls, or pushes where that is turned over.
+            let risen = match way {
+                StrokeWay::PushOver => -risen,
+                _ => risen,
+            };
             let from = match risen > 0.0 {
                 true => first.pos - INSIDE * hand.size * first.normal,
                 false => first.pos + OUTSIDE * hand.size * first.normal,

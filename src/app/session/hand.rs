@@ -17,6 +17,8 @@ pub enum StrokeWay {
     Move,
     /// It goes along the surface's normal: up pulls, down pushes.
     Push,
+    /// The same turned over, as with Alt held: up pushes, down pulls.
+    PushOver,
     /// It follows what is under the hand.
     Along,
     /// It turns about the surface's normal.
@@ -45,6 +47,16 @@ impl StrokeWay {
 
     /// What they may do where they draw a sweep.
     pub const OF_SWEEPS: [Self; 5] = [Self::Move, Self::Push, Self::Along, Self::Turn, Self::Grow];
+
+    /// The same with Alt held, or without it: that turns push and pull over, and nothing else.
+    #[must_use]
+    pub fn with_alt(self, is_held: bool) -> Self {
+        match self {
+            Self::Push | Self::PushOver if is_held => Self::PushOver,
+            Self::Push | Self::PushOver => Self::Push,
+            other => other,
+        }
+    }
 
     /// True if the picture is asked for the surface all along the way of the hand.
     pub fn follows_surface(self) -> bool {

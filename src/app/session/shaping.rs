@@ -573,6 +573,10 @@ mod tests {
         assert!(from.at[2] < 450 && to.at[2] - from.at[2] == 200);
         let pushed = drawn(StrokeWay::Push, -0.2 * up).expect("a push");
         assert!(pushed.moves[0].keys[0].at[2] > 450);
+        for (by, same) in [(0.2, &pushed), (-0.2, &pulled)] {
+            let over = drawn(StrokeWay::PushOver, by * up);
+            assert_eq!(over.as_ref(), Some(same), "Alt turns it over");
+        }
         let turned = drawn(StrokeWay::Turn, 0.5 * seen_across(&camera) * right).expect("a turn");
         let by: i32 = turned.moves[0].keys.iter().map(|key| key.turn[2]).sum();
         assert_eq!((by, turned.moves[0].keys.len()), (180, 3));
@@ -583,6 +587,7 @@ mod tests {
         for way in [
             StrokeWay::Move,
             StrokeWay::Push,
+            StrokeWay::PushOver,
             StrokeWay::Turn,
             StrokeWay::Grow,
         ] {

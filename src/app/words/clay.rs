@@ -19,7 +19,7 @@ words! {
         grow: "Grow", "Wachsen", "Crecer", "膨大";
         smooth: "Smooth", "Glätten", "Alisar", "平滑";
         move_hint: "The tool goes with the hand, in the plane of the picture; Shift on the way keeps it to one axis", "Das Werkzeug geht mit der Hand, in der Bildebene; Umschalt unterwegs hält es auf einer Achse", "El instrumento sigue a la mano, en el plano de la imagen; Mayús por el camino lo mantiene en un eje", "器械在图像平面内随手移动；途中按 Shift 使其保持单轴";
-        push_hint: "Up pulls out of the surface, down pushes into it", "Nach oben hebt aus der Fläche, nach unten drückt hinein", "Hacia arriba tira de la superficie, hacia abajo la hunde", "向上拉出表面，向下压入";
+        push_hint: "Up pulls out of the surface, down pushes into it; Alt turns that over", "Nach oben hebt aus der Fläche, nach unten drückt hinein; Alt kehrt das um", "Hacia arriba tira de la superficie, hacia abajo la hunde; Alt lo invierte", "向上拉出表面，向下压入；按住 Alt 则相反";
         along_hint: "The tool follows the surface under the hand", "Das Werkzeug folgt der Fläche unter der Hand", "El instrumento sigue la superficie bajo la mano", "器械沿手下的表面移动";
         turn_hint: "Sideways turns the tool about the surface's normal", "Seitwärts dreht das Werkzeug um die Flächennormale", "De lado gira el instrumento sobre la normal de la superficie", "左右拖动使器械绕表面法线旋转";
         grow_hint: "Up makes the tool grow and what is in it, down makes it shrink", "Nach oben wächst das Werkzeug und was in ihm ist, nach unten schrumpft es", "Hacia arriba crece el instrumento y lo que contiene, hacia abajo encoge", "向上使器械及其中部分变大，向下变小";
@@ -66,6 +66,8 @@ words! {
         key_size_does: "Size the tool; with Shift its coating", "Größe des Werkzeugs; mit Umschalt der Mantel", "Tamaño del instrumento; con Mayús el recubrimiento", "调整器械大小；加 Shift 调影响层";
         key_turn: "R held with a tool", "R halten mit Werkzeug", "R pulsada con un instrumento", "持器械时按住 R";
         key_turn_does: "Turn the tool", "Werkzeug drehen", "Girar el instrumento", "转动器械";
+        key_over: "Alt with push, pull", "Alt bei Drücken, heben", "Alt con empujar, tirar", "推拉时按住 Alt";
+        key_over_does: "Up pushes, down pulls", "Nach oben drückt, nach unten hebt", "Hacia arriba empuja, hacia abajo tira", "向上压入，向下拉出";
         key_act: "Enter over clay", "Eingabe über Ton", "Intro sobre arcilla", "在黏土上按回车";
         key_together: "Lay strokes on clay down, or do them again", "Striche auf Ton vormerken oder wieder ausführen", "Dejar previstos los trazos sobre arcilla, o volver a hacerlos", "预置黏土笔划，或恢复直接执行";
         together: "Together", "Gemeinsam", "A la vez", "同时";
