@@ -474,6 +474,25 @@ fn shift_on_the_way_keeps_to_an_axis() {
     assert_eq!(window.strokes()[1].smooth, Some(50));
 }
 
+#[test]
+fn a_tool_is_turned_about_the_line_of_sight() {
+    let mut window = Window::with_clay_tool(3);
+    window.choose("What a drag does", "Turn in view");
+    // Near the edge of the ball, where the normal leaves the line of sight.
+    let from = window.picture_center() + vec2(0.0, -90.0);
+    window.drag(from, vec2(60.0, 0.0));
+    window.wait_for_strokes(1);
+    let turn = window.strokes()[0].moves[0].keys[1].turn;
+    let [x, y, z] = turn.map(i32::abs);
+    assert!(
+        y > 20 && x <= 1 && z <= 1,
+        "from the front it is y: {turn:?}"
+    );
+    window.look("clay turned about the line of sight");
+    window.undo();
+    window.wait_for_strokes(0);
+}
+
 /// Up pulls, from inside the clay; with Alt it pushes, from outside, wherever on the way the key goes down.
 #[test]
 fn alt_turns_push_and_pull_over() {

@@ -13,6 +13,7 @@ pub(crate) fn way_title(way: StrokeWay) -> (&'static str, &'static str) {
         StrokeWay::Push | StrokeWay::PushOver => (w.push, w.push_hint),
         StrokeWay::Along => (w.along, w.along_hint),
         StrokeWay::Turn => (w.turn, w.turn_hint),
+        StrokeWay::TurnInView => (w.turn_in_view, w.turn_in_view_hint),
         StrokeWay::Grow => (w.grow, w.grow_hint),
         StrokeWay::Smooth => (w.smooth, w.smooth_hint),
         StrokeWay::Place => (w.place, w.place_hint),

@@ -64,7 +64,7 @@ pub(super) fn gesture(
         percent: 100,
     };
     let begin = key(at, degrees(turn));
-    let [right, up, _] = camera::axes(camera.rotate);
+    let [right, up, back] = camera::axes(camera.rotate);
     let gone = last.pos - first.pos;
     let [across, risen] = [gone.dot(right), gone.dot(up)];
     let (keys, is_straight) = match way {
@@ -97,13 +97,14 @@ pub(super) fn gesture(
             let to = from + risen * first.normal;
             (vec![key(from, begin.turn), key(to, [0; 3])], false)
         }
-        StrokeWay::Turn => {
+        StrokeWay::Turn | StrokeWay::TurnInView => {
+            let axis = match way {
+                StrokeWay::Turn => first.normal,
+                _ => back,
+            };
             let angle = (TURN * across / seen_across(camera)).round();
             let parts = (angle.abs() / TURN_OF_KEY).ceil().max(1.0);
-            let by = (first.normal * (angle / parts))
-                .round()
-                .as_ivec3()
-                .to_array();
+            let by = (axis * (angle / parts)).round().as_ivec3().to_array();
             let turned = std::iter::repeat_n(key(at, by), parts as usize);
             (std::iter::once(begin).chain(turned).collect(), true)
         }

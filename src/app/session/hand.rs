@@ -23,6 +23,8 @@ pub enum StrokeWay {
     Along,
     /// It turns about the surface's normal.
     Turn,
+    /// It turns about the line of sight.
+    TurnInView,
     /// It grows, and shrinks.
     Grow,
     /// What is under the hand is smoothed.
@@ -35,18 +37,26 @@ pub enum StrokeWay {
 
 impl StrokeWay {
     /// What drags may do to a clay, in the order of the buttons.
-    pub const OF_CLAYS: [Self; 7] = [
+    pub const OF_CLAYS: [Self; 8] = [
         Self::Move,
         Self::Push,
         Self::Along,
         Self::Turn,
+        Self::TurnInView,
         Self::Grow,
         Self::Smooth,
         Self::Place,
     ];
 
     /// What they may do where they draw a sweep.
-    pub const OF_SWEEPS: [Self; 5] = [Self::Move, Self::Push, Self::Along, Self::Turn, Self::Grow];
+    pub const OF_SWEEPS: [Self; 6] = [
+        Self::Move,
+        Self::Push,
+        Self::Along,
+        Self::Turn,
+        Self::TurnInView,
+        Self::Grow,
+    ];
 
     /// The same with Alt held, or without it: that turns push and pull over, and nothing else.
     #[must_use]

@@ -565,7 +565,7 @@ mod tests {
             strokes(&session).first().cloned()
         };
         let camera = Camera::DOCUMENT_DEFAULT;
-        let [right, up, _] = camera::axes(camera.rotate);
+        let [right, up, back] = camera::axes(camera.rotate);
         let pulled = drawn(StrokeWay::Push, 0.2 * up).expect("a pull");
         let [from, to] = &pulled.moves[0].keys[..] else {
             panic!("two keys")
@@ -580,6 +580,16 @@ mod tests {
         let turned = drawn(StrokeWay::Turn, 0.5 * seen_across(&camera) * right).expect("a turn");
         let by: i32 = turned.moves[0].keys.iter().map(|key| key.turn[2]).sum();
         assert_eq!((by, turned.moves[0].keys.len()), (180, 3));
+        let half = 0.5 * seen_across(&camera) * right;
+        let seen = drawn(StrokeWay::TurnInView, half).expect("a turn");
+        let turns = seen.moves[0].keys.iter().map(|key| key.turn);
+        let by: Vec3 = turns
+            .map(|turn| Vec3::from_array(turn.map(|x| x as f32)))
+            .sum();
+        assert!(
+            by.distance(180.0 * back) < 3.0,
+            "about the line of sight: {by}"
+        );
         let grown = drawn(StrokeWay::Grow, 0.25 * seen_across(&camera) * up).expect("growth");
         assert_eq!(grown.moves[0].keys[1].percent, 200);
         let smoothed = drawn(StrokeWay::Smooth, Vec3::ZERO).expect("a touch is enough");
@@ -589,6 +599,7 @@ mod tests {
             StrokeWay::Push,
             StrokeWay::PushOver,
             StrokeWay::Turn,
+            StrokeWay::TurnInView,
             StrokeWay::Grow,
         ] {
             assert_eq!(

@@ -16,12 +16,14 @@ words! {
         push: "Push, pull", "Drücken, heben", "Empujar, tirar", "推拉";
         along: "Along", "Entlang", "A lo largo", "沿面";
         turn: "Turn", "Drehen", "Girar", "扭转";
+        turn_in_view: "Turn in view", "Im Bild drehen", "Girar en la vista", "画面内扭转";
         grow: "Grow", "Wachsen", "Crecer", "膨大";
         smooth: "Smooth", "Glätten", "Alisar", "平滑";
         move_hint: "The tool goes with the hand, in the plane of the picture; Shift on the way keeps it to one axis", "Das Werkzeug geht mit der Hand, in der Bildebene; Umschalt unterwegs hält es auf einer Achse", "El instrumento sigue a la mano, en el plano de la imagen; Mayús por el camino lo mantiene en un eje", "器械在图像平面内随手移动；途中按 Shift 使其保持单轴";
         push_hint: "Up pulls out of the surface, down pushes into it; Alt turns that over", "Nach oben hebt aus der Fläche, nach unten drückt hinein; Alt kehrt das um", "Hacia arriba tira de la superficie, hacia abajo la hunde; Alt lo invierte", "向上拉出表面，向下压入；按住 Alt 则相反";
         along_hint: "The tool follows the surface under the hand", "Das Werkzeug folgt der Fläche unter der Hand", "El instrumento sigue la superficie bajo la mano", "器械沿手下的表面移动";
         turn_hint: "Sideways turns the tool about the surface's normal", "Seitwärts dreht das Werkzeug um die Flächennormale", "De lado gira el instrumento sobre la normal de la superficie", "左右拖动使器械绕表面法线旋转";
+        turn_in_view_hint: "Sideways turns the tool about the line of sight, as the picture shows it", "Seitwärts dreht das Werkzeug um die Blickrichtung, wie man es im Bild sieht", "De lado gira el instrumento sobre la línea de visión, tal como se ve en la imagen", "左右拖动使器械绕视线旋转，如画面所见";
         grow_hint: "Up makes the tool grow and what is in it, down makes it shrink", "Nach oben wächst das Werkzeug und was in ihm ist, nach unten schrumpft es", "Hacia arriba crece el instrumento y lo que contiene, hacia abajo encoge", "向上使器械及其中部分变大，向下变小";
         smooth_hint: "What is under the hand is smoothed; with Shift held any drag does", "Was unter der Hand ist, wird geglättet; mit Umschalt tut es jedes Ziehen", "Alisa lo que está bajo la mano; con Mayús lo hace cualquier arrastre", "平滑手下的部分；按住 Shift 时任何拖动皆如此";
         place: "Place", "Hinlegen", "Colocar", "放置";
