@@ -474,6 +474,72 @@ fn shift_on_the_way_keeps_to_an_axis() {
     assert_eq!(window.strokes()[1].smooth, Some(50));
 }
 
+impl Window {
+    /// How many thin lines there are in the picture whose strongest part is red, green or blue: those of the planes of
+    /// mirror images.
+    fn lines_of_planes(&self) -> [usize; 3] {
+        fn count(shape: &egui::Shape, counts: &mut [usize; 3]) {
+            match shape {
+                egui::Shape::LineSegment { stroke, .. } if stroke.width == 1.0 => {
+                    let [r, g, b, _] = stroke.color.to_array();
+                    let parts = [r, g, b];
+                    let others = |i: usize| (0..3).filter(move |j| *j != i).map(|j| parts[j]);
+                    for i in 0..3 {
+                        if others(i).all(|other| parts[i] > other + 25) {
+                            counts[i] += 1;
+                        }
+                    }
+                }
+                egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| count(shape, counts)),
+                _ => {}
+            }
+        }
+        let mut counts = [0; 3];
+        for clipped in &self.harness.output().shapes {
+            count(&clipped.shape, &mut counts);
+        }
+        counts
+    }
+}
+
+/// Each plane of mirror images is drawn while the clay is worked on, and in no other picture.
+#[test]
+fn planes_of_symmetry_are_shown() {
+    let mut window = Window::with_clay_tool(0);
+    window.look("plane of symmetry");
+    let [x, none_of_y, none_of_z] = window.lines_of_planes();
+    assert!(
+        x > 30 && none_of_y < 4 && none_of_z < 4,
+        "{x} {none_of_y} {none_of_z}"
+    );
+    for axis in ["y", "z"] {
+        window.click(&format!("Mirror across {axis}"));
+    }
+    window.look("three planes of symmetry");
+    let all = window.lines_of_planes();
+    assert!(all.iter().all(|count| *count > 30), "{all:?}");
+    window.save_small_pictures();
+    let saved = window.saved_picture();
+    // Presented, the picture stands alone.
+    window.press(Key::P);
+    assert!(window.lines_of_planes().iter().all(|count| *count < 4));
+    window.press(Key::P);
+    for axis in ["y", "z"] {
+        window.click(&format!("Mirror across {axis}"));
+    }
+    window
+        .harness
+        .get_all_by_label("Mirror across x")
+        .next()
+        .expect("a switch")
+        .click();
+    window.steps(3);
+    assert!(window.lines_of_planes().iter().all(|count| *count < 4));
+    assert_eq!(window.saved_picture(), saved, "no saved picture has them");
+    window.press(Key::Escape);
+    assert!(window.lines_of_planes().iter().all(|count| *count < 4));
+}
+
 #[test]
 fn a_tool_is_turned_about_the_line_of_sight() {
     let mut window = Window::with_clay_tool(3);

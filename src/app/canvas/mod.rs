@@ -15,6 +15,7 @@ pub(crate) mod hint;
 pub(crate) mod lettering;
 pub(crate) mod levelling;
 pub(crate) mod measure;
+pub(crate) mod mirrors;
 pub(crate) mod orientation;
 pub(crate) mod outline;
 pub(crate) mod panes;

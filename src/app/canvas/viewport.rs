@@ -18,7 +18,7 @@ use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
 use super::shaping::{self, ShapingHand};
 use super::tools::{asking_ui, bar_bottom, tools_ui};
-use super::{curve, orientation, points, slice_plot, strokes, view_bar, ways};
+use super::{curve, mirrors, orientation, points, slice_plot, strokes, view_bar, ways};
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, template_menu, widget};
 use crate::app::picture::host::{Picture, found};
@@ -213,6 +213,7 @@ impl Viewport {
         match session.tool() {
             Tool::Place(TemplateKind::Sweep) => {
                 self.gizmo.release();
+                mirrors::paint(ui, &view, session);
                 self.shaping.paint(ui, &view, session);
                 shaping::bar_ui(ui, bars, session, commands);
                 shaping::what_to_do_ui(ui, free);
@@ -234,6 +235,7 @@ impl Viewport {
                 ball::bar_ui(ui, bars, session, erases, commands);
             }
             Tool::Clay => {
+                mirrors::paint(ui, &view, session);
                 if !self.gizmo.is_hot() {
                     self.shaping.paint(ui, &view, session);
                 }
