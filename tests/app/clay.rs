@@ -1,7 +1,7 @@
 //! A clay in the window: it is shaped as far as its strokes are shown, and its captions go with it.
 
 use super::*;
-use fabrica::app::{HandCommand, HeldTool, StrokeWay};
+use fabrica::app::{ClayCommand, HandCommand, HeldTool, StrokeWay};
 use fabrica::assets::Source;
 
 /// Frames of a short passage, with those until the clay is there, and some more.
@@ -474,6 +474,66 @@ fn shift_on_the_way_keeps_to_an_axis() {
     assert_eq!(window.strokes()[1].smooth, Some(50));
 }
 
+/// On a phone two sliders at the edge of the picture size the tool and its coating; with a mouse there are none.
+#[test]
+fn fingers_have_sliders_for_size_and_coating() {
+    const NAMES: [&str; 2] = ["Size of the tool", "Coating of the tool"];
+    let desk = Window::with_clay_tool(0);
+    for name in NAMES {
+        assert!(desk.harness.query_by_label(name).is_none(), "{name}");
+    }
+    let json = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05 } } }"#;
+    let mut window = Window::open(vec2(390.0, 844.0), json);
+    window.settle();
+    assert!(window.harness.query_by_label(NAMES[0]).is_none());
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Toggle));
+    window.settle();
+    window.look("sliders for fingers");
+    let first = window.drawn_tool();
+    let before = window.document().illustration().camera;
+    let [size, coat] = NAMES.map(|name| {
+        let slider = window.harness.get_by_role_and_label(Role::Slider, name);
+        slider.rect()
+    });
+    let picture = window.harness.get_by_role(Role::Image).rect();
+    for slider in [size, coat] {
+        assert!(
+            slider.width() >= 44.0 && slider.height() >= 44.0,
+            "{slider}"
+        );
+        assert!(picture.contains_rect(slider), "{slider} in {picture}");
+    }
+    assert!(!size.intersects(coat), "{size} {coat}");
+    // Up is larger.
+    let up = |slider: egui::Rect| vec2(0.0, -0.3 * slider.height());
+    window.drag_on(size.center(), up(size), 4);
+    window.look("slider for fingers held");
+    window.harness.drop_at(size.center() + up(size));
+    window.drag(coat.center(), -up(coat));
+    let fitted = window.drawn_tool();
+    let half = |tool: &fabrica::document::ClayTool| {
+        let shape = tool.shape.as_ref().expect("a shape");
+        shape.half_side()
+    };
+    assert!(half(&fitted) > half(&first) + 0.05, "{fitted:?}");
+    assert!(fitted.coat < first.coat - 0.02, "{fitted:?}");
+    assert_eq!(
+        window.document().illustration().camera,
+        before,
+        "the view stays"
+    );
+    // With the keyboard, too.
+    window.harness.get_by_label(NAMES[0]).focus();
+    window.steps(2);
+    for _ in 0..4 {
+        window.press(Key::ArrowDown);
+    }
+    let smaller = window.drawn_tool();
+    assert!(half(&smaller) < half(&fitted), "{smaller:?}");
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Toggle));
+    assert!(window.harness.query_by_label(NAMES[0]).is_none());
+}
+
 impl Window {
     /// How many thin lines there are in the picture whose strongest part is red, green or blue: those of the planes of
     /// mirror images.
@@ -535,7 +595,8 @@ fn planes_of_symmetry_are_shown() {
         .click();
     window.steps(3);
     assert!(window.lines_of_planes().iter().all(|count| *count < 4));
-    assert_eq!(window.saved_picture(), saved, "no saved picture has them");
+    let bare = window.saved_picture();
+    assert!(bare == saved, "no saved picture has them");
     window.press(Key::Escape);
     assert!(window.lines_of_planes().iter().all(|count| *count < 4));
 }

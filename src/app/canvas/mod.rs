@@ -5,6 +5,7 @@ pub(crate) mod ball;
 pub(crate) mod caption_layout;
 pub(crate) mod captions;
 pub(crate) mod curve;
+pub(crate) mod edge_sliders;
 pub(crate) mod figure;
 pub(crate) mod fitting;
 pub(crate) mod foot;
