@@ -543,9 +543,9 @@ impl Window {
                 egui::Shape::LineSegment { stroke, .. } if stroke.width == 1.0 => {
                     let [r, g, b, _] = stroke.color.to_array();
                     let parts = [r, g, b];
-                    let others = |i: usize| (0..3).filter(move |j| *j != i).map(|j| parts[j]);
+                    let others = |i: usize| (0..3).filter(move |j| *j != i).map(move |j| parts[j]);
                     for i in 0..3 {
-                        if others(i).all(|other| parts[i] > other + 25) {
+                        if others(i).all(|other| parts[i] > other.saturating_add(25)) {
                             counts[i] += 1;
                         }
                     }
@@ -690,6 +690,75 @@ fn a_stroke_is_moved_in_the_list() {
     window.undo();
     window.undo();
     window.settle();
+    assert_eq!(window.document().to_json_compact(), before);
+}
+
+/// The selected stroke has rows for form, size and coating of its tool, and for its mirror images: each is one step of
+/// undo, and the strokes behind it are done again.
+#[test]
+fn the_tool_of_a_stroke_is_changed() {
+    let mut window = Window::open(DESK, &PULLED.replace("\"strokes\": 0", "\"strokes\": 2"));
+    window.settle();
+    let before = window.document().to_json_compact();
+    let tool = |window: &Window, stroke: usize| match &window.document().illustration().subject {
+        fabrica::document::SubjectRef::Clay(clay) => {
+            clay.tools[clay.strokes[stroke].moves[0].tool].clone()
+        }
+        other => panic!("{other:?}"),
+    };
+    let other = tool(&window, 1);
+    assert!(
+        window.harness.query_by_label("Tool 1").is_none(),
+        "none is selected"
+    );
+    window.click("Stroke 1");
+    window.settle();
+    window.look("tool of a stroke");
+    let asked = window.strokes_asked().len();
+    window.type_into("Size", "0.3");
+    window.settle();
+    assert_eq!(
+        tool(&window, 0).shape.map(|shape| shape.half_side()),
+        Some(0.3)
+    );
+    assert_eq!(tool(&window, 1), other, "the other stroke keeps its tool");
+    assert_eq!(window.strokes_asked()[asked..], [2], "both are done again");
+    window.type_into("Coating", "0.25");
+    window.choose("Tool 1", "Ring");
+    window.click("Mirror across z");
+    window.settle();
+    window.look("tool of a stroke changed");
+    let ring = fabrica::document::ClayTool {
+        shape: Some(fabrica::document::ToolShape::Torus {
+            ring: 0.225,
+            radius: 0.075,
+        }),
+        coat: 0.25,
+    };
+    assert_eq!(tool(&window, 0), ring);
+    assert_eq!(window.strokes()[0].mirror, [false, false, true]);
+    // From the last to the first.
+    window.undo();
+    assert_eq!(window.strokes()[0].mirror, [false; 3]);
+    window.undo();
+    assert_eq!(
+        tool(&window, 0).shape.map(|shape| shape.half_side()),
+        Some(0.3)
+    );
+    window.undo();
+    assert_eq!(tool(&window, 0).coat, other.coat);
+    window.undo();
+    window.settle();
+    assert_eq!(window.document().to_json_compact(), before);
+    // A slider that is dragged is one step as well.
+    let slider = window
+        .harness
+        .get_by_role_and_label(Role::Slider, "Size slider");
+    let rect = slider.rect();
+    window.drag(rect.center(), vec2(0.2 * rect.width(), 0.0));
+    assert_ne!(tool(&window, 0), other);
+    assert_eq!(tool(&window, 1), other);
+    window.undo();
     assert_eq!(window.document().to_json_compact(), before);
 }
 

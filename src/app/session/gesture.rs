@@ -205,6 +205,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_turn_of_a_key_is_the_shorter_one() {
+        let about_z = |degrees: f32| Quat::from_rotation_z(degrees.to_radians());
+        assert_eq!(degrees(about_z(90.0)), [0, 0, 90]);
+        assert_eq!(degrees(-about_z(90.0)), [0, 0, 90]);
+        assert_eq!(degrees(about_z(270.0)), [0, 0, -90]);
+        assert_eq!(degrees(about_z(180.0))[2].abs(), 178);
+    }
+
+    #[test]
     fn a_way_is_thinned_to_few_keys_near_it() {
         let way: Vec<Vec3> = (0..400)
             .map(|i| {

@@ -168,6 +168,20 @@ impl HeldTool {
         }
     }
 
+    /// A hand that holds a tool which is there, in its own proportions; `None` of a form that this version does not
+    /// have.
+    pub fn with_tool(tool: &ClayTool) -> Option<Self> {
+        let own = tool.shape.clone()?;
+        let form = Self::FORMS.iter().position(|name| *name == own.name());
+        Some(Self {
+            form: form.unwrap_or_default(),
+            size: own.half_side(),
+            own: Some(own),
+            coat: tool.coat as f32,
+            ..Self::default()
+        })
+    }
+
     /// Where the tool stands over a place of the clay, and how it is turned. The form of index 0, a ball, is the same
     /// however it is turned.
     pub fn pose(&self, touch: &Touch) -> (Vec3, Quat) {
@@ -191,7 +205,8 @@ impl HeldTool {
         self.depth + part.abs() * (end - self.depth)
     }
 
-    pub(super) fn tool(&self) -> ClayTool {
+    /// The tool, as a clay lists it.
+    pub fn tool(&self) -> ClayTool {
         ClayTool {
             shape: Some(self.shape()),
             coat: (f64::from(self.coat) * 1e3).round() / 1e3,

@@ -39,6 +39,8 @@ words! {
         size_hint: "Half the length of the tool; [ and ], or F held and the pointer or the wheel", "Halbe Länge des Werkzeugs; [ und ] oder F halten und Zeiger oder Rad bewegen", "Mitad de la longitud del instrumento; [ y ], o F pulsada y el puntero o la rueda", "器械长度的一半；[ 和 ]，或按住 F 移动指针或滚动滚轮";
         coat: "Coating", "Mantel", "Recubrimiento", "影响层";
         coat_hint: "Width around the tool in which the motion fades; as the size, with Shift and F", "Breite um das Werkzeug, in der die Bewegung abklingt; wie die Größe, mit Umschalt und F", "Anchura en torno al instrumento en que el movimiento se atenúa; como el tamaño, con Mayús y F", "器械周围运动逐渐减弱的宽度；同大小，用 Shift 和 F";
+        stroke_size_hint: "Half the length of the tool; later strokes are done again", "Halbe Länge des Werkzeugs; spätere Striche werden neu gemacht", "Mitad de la longitud del instrumento; los trazos posteriores se repiten", "器械长度的一半；之后的笔划会重做";
+        stroke_coat_hint: "Width around the tool in which the motion fades; later strokes are done again", "Breite um das Werkzeug, in der die Bewegung abklingt; spätere Striche werden neu gemacht", "Anchura en torno al instrumento en que el movimiento se atenúa; los trazos posteriores se repiten", "器械周围运动逐渐减弱的宽度；之后的笔划会重做";
         size_of_tool: "Size of the tool", "Größe des Werkzeugs", "Tamaño del instrumento", "器械的大小";
         coat_of_tool: "Coating of the tool", "Mantel des Werkzeugs", "Recubrimiento del instrumento", "器械的影响层";
         depth: "Depth", "Tiefe", "Profundidad", "深度";
