@@ -1,7 +1,7 @@
 //! A clay in the window: it is shaped as far as its strokes are shown, and its captions go with it.
 
 use super::*;
-use fabrica::app::{HandCommand, HeldTool, StrokeWay};
+use fabrica::app::{ClayCommand, HandCommand, HeldTool, StrokeWay};
 use fabrica::assets::Source;
 
 /// Frames of a short passage, with those until the clay is there, and some more.
@@ -474,6 +474,202 @@ fn shift_on_the_way_keeps_to_an_axis() {
     assert_eq!(window.strokes()[1].smooth, Some(50));
 }
 
+/// On a phone two sliders at the edge of the picture size the tool and its coating; with a mouse there are none.
+#[test]
+fn fingers_have_sliders_for_size_and_coating() {
+    const NAMES: [&str; 2] = ["Size of the tool", "Coating of the tool"];
+    let desk = Window::with_clay_tool(0);
+    for name in NAMES {
+        assert!(desk.harness.query_by_label(name).is_none(), "{name}");
+    }
+    let json = r#"{ "fabrica": 1, "subject": { "clay": { "detail": 0.05 } } }"#;
+    let mut window = Window::open(vec2(390.0, 844.0), json);
+    window.settle();
+    assert!(window.harness.query_by_label(NAMES[0]).is_none());
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Toggle));
+    window.settle();
+    window.look("sliders for fingers");
+    let first = window.drawn_tool();
+    let before = window.document().illustration().camera;
+    let [size, coat] = NAMES.map(|name| {
+        let slider = window.harness.get_by_role_and_label(Role::Slider, name);
+        slider.rect()
+    });
+    let picture = window.harness.get_by_role(Role::Image).rect();
+    for slider in [size, coat] {
+        assert!(
+            slider.width() >= 44.0 && slider.height() >= 44.0,
+            "{slider}"
+        );
+        assert!(picture.contains_rect(slider), "{slider} in {picture}");
+    }
+    assert!(!size.intersects(coat), "{size} {coat}");
+    // Up is larger.
+    let up = |slider: egui::Rect| vec2(0.0, -0.3 * slider.height());
+    window.drag_on(size.center(), up(size), 4);
+    window.look("slider for fingers held");
+    window.harness.drop_at(size.center() + up(size));
+    window.drag(coat.center(), -up(coat));
+    let fitted = window.drawn_tool();
+    let half = |tool: &fabrica::document::ClayTool| {
+        let shape = tool.shape.as_ref().expect("a shape");
+        shape.half_side()
+    };
+    assert!(half(&fitted) > half(&first) + 0.05, "{fitted:?}");
+    assert!(fitted.coat < first.coat - 0.02, "{fitted:?}");
+    assert_eq!(
+        window.document().illustration().camera,
+        before,
+        "the view stays"
+    );
+    // With the keyboard, too.
+    window.harness.get_by_label(NAMES[0]).focus();
+    window.steps(2);
+    for _ in 0..4 {
+        window.press(Key::ArrowDown);
+    }
+    let smaller = window.drawn_tool();
+    assert!(half(&smaller) < half(&fitted), "{smaller:?}");
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Toggle));
+    assert!(window.harness.query_by_label(NAMES[0]).is_none());
+}
+
+impl Window {
+    /// How many thin lines there are in the picture whose strongest part is red, green or blue: those of the planes of
+    /// mirror images.
+    fn lines_of_planes(&self) -> [usize; 3] {
+        fn count(shape: &egui::Shape, counts: &mut [usize; 3]) {
+            match shape {
+                egui::Shape::LineSegment { stroke, .. } if stroke.width == 1.0 => {
+                    let [r, g, b, _] = stroke.color.to_array();
+                    let parts = [r, g, b];
+                    let others = |i: usize| (0..3).filter(move |j| *j != i).map(move |j| parts[j]);
+                    for i in 0..3 {
+                        if others(i).all(|other| parts[i] > other.saturating_add(25)) {
+                            counts[i] += 1;
+                        }
+                    }
+                }
+                egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| count(shape, counts)),
+                _ => {}
+            }
+        }
+        let mut counts = [0; 3];
+        for clipped in &self.harness.output().shapes {
+            count(&clipped.shape, &mut counts);
+        }
+        counts
+    }
+}
+
+/// Each plane of mirror images is drawn while the clay is worked on, and in no other picture.
+#[test]
+fn planes_of_symmetry_are_shown() {
+    let mut window = Window::with_clay_tool(0);
+    window.look("plane of symmetry");
+    let [x, none_of_y, none_of_z] = window.lines_of_planes();
+    assert!(
+        x > 30 && none_of_y < 4 && none_of_z < 4,
+        "{x} {none_of_y} {none_of_z}"
+    );
+    for axis in ["y", "z"] {
+        window.click(&format!("Mirror across {axis}"));
+    }
+    window.look("three planes of symmetry");
+    let all = window.lines_of_planes();
+    assert!(all.iter().all(|count| *count > 30), "{all:?}");
+    window.save_small_pictures();
+    let saved = window.saved_picture();
+    // Presented, the picture stands alone.
+    window.press(Key::P);
+    assert!(window.lines_of_planes().iter().all(|count| *count < 4));
+    window.press(Key::P);
+    for axis in ["y", "z"] {
+        window.click(&format!("Mirror across {axis}"));
+    }
+    window
+        .harness
+        .get_all_by_label("Mirror across x")
+        .next()
+        .expect("a switch")
+        .click();
+    window.steps(3);
+    assert!(window.lines_of_planes().iter().all(|count| *count < 4));
+    let bare = window.saved_picture();
+    assert!(bare == saved, "no saved picture has them");
+    window.press(Key::Escape);
+    assert!(window.lines_of_planes().iter().all(|count| *count < 4));
+}
+
+#[test]
+fn a_tool_is_turned_about_the_line_of_sight() {
+    let mut window = Window::with_clay_tool(3);
+    window.choose("What a drag does", "Turn in view");
+    // Near the edge of the ball, where the normal leaves the line of sight.
+    let from = window.picture_center() + vec2(0.0, -90.0);
+    window.drag(from, vec2(60.0, 0.0));
+    window.wait_for_strokes(1);
+    let turn = window.strokes()[0].moves[0].keys[1].turn;
+    let [x, y, z] = turn.map(i32::abs);
+    assert!(
+        y > 20 && x <= 1 && z <= 1,
+        "from the front it is y: {turn:?}"
+    );
+    window.look("clay turned about the line of sight");
+    window.undo();
+    window.wait_for_strokes(0);
+}
+
+/// Up pulls, from inside the clay; with Alt it pushes, from outside, wherever on the way the key goes down.
+#[test]
+fn alt_turns_push_and_pull_over() {
+    let mut window = Window::with_clay_tool(0);
+    window.run_command(fabrica::app::Command::Hand(HandCommand::Hold(HeldTool {
+        way: StrokeWay::Push,
+        ..HeldTool::default()
+    })));
+    let (middle, by) = (window.picture_center(), vec2(0.0, -60.0));
+    let alt = |window: &mut Window, modifiers| {
+        window
+            .harness
+            .event(egui::Event::ModifiersChanged(modifiers));
+        window.steps(2);
+    };
+    // The viewer stands at the front, where y is positive.
+    let mut drawn = |alt_before: bool, alt_after: bool| {
+        if alt_before {
+            alt(&mut window, Modifiers::ALT);
+        }
+        window.drag_on(middle, by, 4);
+        if alt_after != alt_before {
+            let modifiers = if alt_after {
+                Modifiers::ALT
+            } else {
+                Modifiers::NONE
+            };
+            alt(&mut window, modifiers);
+        }
+        window.harness.drop_at(middle + by);
+        window.steps(2);
+        alt(&mut window, Modifiers::NONE);
+        window.wait_for_strokes(1);
+        let stroke = window.strokes().remove(0);
+        window.undo();
+        window.wait_for_strokes(0);
+        let [from, to] = &stroke.moves[0].keys[..] else {
+            panic!("a way: {stroke:?}")
+        };
+        [from.at[1], to.at[1] - from.at[1]]
+    };
+    let [inside, pulled] = drawn(false, false);
+    assert!(inside < 500 && pulled > 100, "{inside} {pulled}");
+    for (before, after) in [(true, true), (false, true)] {
+        let [outside, pushed] = drawn(before, after);
+        assert!(outside > 550 && pushed == -pulled, "{outside} {pushed}");
+    }
+    assert_eq!(drawn(true, false), [inside, pulled], "Alt was let go");
+}
+
 #[test]
 fn a_stroke_is_moved_in_the_list() {
     let mut window = Window::open(DESK, PULLED);
@@ -494,6 +690,75 @@ fn a_stroke_is_moved_in_the_list() {
     window.undo();
     window.undo();
     window.settle();
+    assert_eq!(window.document().to_json_compact(), before);
+}
+
+/// The selected stroke has rows for form, size and coating of its tool, and for its mirror images: each is one step of
+/// undo, and the strokes behind it are done again.
+#[test]
+fn the_tool_of_a_stroke_is_changed() {
+    let mut window = Window::open(DESK, &PULLED.replace("\"strokes\": 0", "\"strokes\": 2"));
+    window.settle();
+    let before = window.document().to_json_compact();
+    let tool = |window: &Window, stroke: usize| match &window.document().illustration().subject {
+        fabrica::document::SubjectRef::Clay(clay) => {
+            clay.tools[clay.strokes[stroke].moves[0].tool].clone()
+        }
+        other => panic!("{other:?}"),
+    };
+    let other = tool(&window, 1);
+    assert!(
+        window.harness.query_by_label("Tool 1").is_none(),
+        "none is selected"
+    );
+    window.click("Stroke 1");
+    window.settle();
+    window.look("tool of a stroke");
+    let asked = window.strokes_asked().len();
+    window.type_into("Size", "0.3");
+    window.settle();
+    assert_eq!(
+        tool(&window, 0).shape.map(|shape| shape.half_side()),
+        Some(0.3)
+    );
+    assert_eq!(tool(&window, 1), other, "the other stroke keeps its tool");
+    assert_eq!(window.strokes_asked()[asked..], [2], "both are done again");
+    window.type_into("Coating", "0.25");
+    window.choose("Tool 1", "Ring");
+    window.click("Mirror across z");
+    window.settle();
+    window.look("tool of a stroke changed");
+    let ring = fabrica::document::ClayTool {
+        shape: Some(fabrica::document::ToolShape::Torus {
+            ring: 0.225,
+            radius: 0.075,
+        }),
+        coat: 0.25,
+    };
+    assert_eq!(tool(&window, 0), ring);
+    assert_eq!(window.strokes()[0].mirror, [false, false, true]);
+    // From the last to the first.
+    window.undo();
+    assert_eq!(window.strokes()[0].mirror, [false; 3]);
+    window.undo();
+    assert_eq!(
+        tool(&window, 0).shape.map(|shape| shape.half_side()),
+        Some(0.3)
+    );
+    window.undo();
+    assert_eq!(tool(&window, 0).coat, other.coat);
+    window.undo();
+    window.settle();
+    assert_eq!(window.document().to_json_compact(), before);
+    // A slider that is dragged is one step as well.
+    let slider = window
+        .harness
+        .get_by_role_and_label(Role::Slider, "Size slider");
+    let rect = slider.rect();
+    window.drag(rect.center(), vec2(0.2 * rect.width(), 0.0));
+    assert_ne!(tool(&window, 0), other);
+    assert_eq!(tool(&window, 1), other);
+    window.undo();
     assert_eq!(window.document().to_json_compact(), before);
 }
 

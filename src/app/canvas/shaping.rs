@@ -10,7 +10,7 @@ use super::pen::Pen;
 use super::projection::{Projection, pixels_of};
 use super::tools::{gizmo_name, head_bar};
 use super::ways::paint_way;
-use crate::app::kit::clay_tool::{form_title, held_title, own_title, way_title};
+use crate::app::kit::clay_tool::{forms_ui, held_title, own_forms, way_title};
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::{self, Palette, over_picture as ink};
 use crate::app::kit::widget::{self, Named as _};
@@ -56,8 +56,8 @@ pub(crate) struct ShapingHand {
     spots: Vec<Pos2>,
     /// The surface was asked for under as many of these.
     asked: usize,
-    /// As many touches has the session heard of, and the last of them.
-    told: Option<(usize, Touch)>,
+    /// The session has heard of this way, of as many touches, and of the last of them.
+    told: Option<(StrokeWay, usize, Touch)>,
     is_over: bool,
     /// Its way is kept to one axis of the picture.
     is_straight: bool,
@@ -180,8 +180,10 @@ impl ShapingHand {
         }
         let here = response.interact_pointer_pos().filter(|_| !self.is_over);
         if !self.is_over {
+            let modifiers = ui.input(|i| i.modifiers);
             // Before the press Shift smooths.
-            self.is_straight = self.way == StrokeWay::Move && ui.input(|i| i.modifiers.shift);
+            self.is_straight = self.way == StrokeWay::Move && modifiers.shift;
+            self.way = self.way.with_alt(modifiers.alt);
         }
         let last = self.spots.last().copied();
         let is_far = |pos: &Pos2| last.is_none_or(|last| last.distance(*pos) >= STEP);
@@ -346,7 +348,7 @@ impl ShapingHand {
             return;
         };
         let is_over = self.is_over && !(follows && self.pick.is_some());
-        let told = touches.last().map(|last| (touches.len(), *last));
+        let told = touches.last().map(|last| (self.way, touches.len(), *last));
         // A hand that rests changes nothing.
         if told == self.told && !is_over {
             return;
@@ -426,22 +428,15 @@ fn ring(view: &Projection, middle: Vec3, radius: f32) -> Vec<Vec3> {
     (0..=48).map(corner).collect()
 }
 
-/// The drawn curves, meshes and baked clays among the tools of the clay or of the sweeps, each once, and what is held.
+/// The drawn curves, meshes and baked clays among the tools of the clay or of the sweeps, and what is held.
 fn own_shapes(session: &Session) -> Vec<&ToolShape> {
-    let own: Vec<&ToolShape> = if session.is_sweeping() {
+    let listed: Vec<&ToolShape> = if session.is_sweeping() {
         swept_shapes(session).collect()
     } else {
         let tools = session.clay().into_iter().flat_map(|clay| &clay.tools);
         tools.filter_map(|tool| tool.shape.as_ref()).collect()
     };
-    let mut shapes: Vec<&ToolShape> = Vec::new();
-    for shape in own.into_iter().chain(&session.hand().own) {
-        let is_known = |known: &&ToolShape| known.has_form_of(shape);
-        if !HeldTool::has_plain_form(shape) && !shapes.iter().any(is_known) {
-            shapes.push(shape);
-        }
-    }
-    shapes
+    own_forms(listed.into_iter().chain(&session.hand().own))
 }
 
 /// The shapes of the tools of all sweeps that are shown.
@@ -520,27 +515,7 @@ fn form_ui(ui: &mut Ui, session: &Session, form_width: f32, commands: &mut Vec<C
     let hand = session.hand();
     let shown = widget::combo("form of strokes", &held_title(hand), form_width);
     let shown = shown.show_ui(ui, |ui| {
-        let forms = (0..HeldTool::FORMS.len()).map(|form| (form, None));
-        let own = own_shapes(session).into_iter();
-        let own = own.map(|shape| (hand.form, Some(shape)));
-        for (form, own) in forms.chain(own) {
-            let is_held = match (own, &hand.own) {
-                (None, None) => form == hand.form,
-                (Some(one), Some(held)) => held.has_form_of(one),
-                _ => false,
-            };
-            let title = match own {
-                None => form_title(form).to_owned(),
-                Some(shape) => own_title(shape),
-            };
-            if ui.selectable_label(is_held, title).clicked() {
-                commands.push(held(HeldTool {
-                    form,
-                    own: own.cloned(),
-                    ..hand.clone()
-                }));
-            }
-        }
+        commands.extend(forms_ui(ui, hand, &own_shapes(session)).map(held));
         let draws = hand.way == StrokeWay::Form;
         let label = ui.selectable_label(draws, w().draw_form);
         if label.on_hover_text(w().draw_form_hint).clicked() {

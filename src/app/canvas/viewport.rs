@@ -18,7 +18,9 @@ use super::panes::ONE_PANE;
 use super::projection::{self, Projection};
 use super::shaping::{self, ShapingHand};
 use super::tools::{asking_ui, bar_bottom, tools_ui};
-use super::{curve, orientation, points, slice_plot, strokes, view_bar, ways};
+use super::{
+    curve, edge_sliders, mirrors, orientation, points, slice_plot, strokes, view_bar, ways,
+};
 use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::{slow_click, template_menu, widget};
 use crate::app::picture::host::{Picture, found};
@@ -207,12 +209,14 @@ impl Viewport {
         // Left of the buttons, where these have a column of their own.
         let foot = free.right_bottom() - vec2(view_bar::column_width(rect) + 14.0, 14.0);
         orientation::bar_ui(&painter, session, rect, letters, foot);
-        self.captions
-            .ui(ui, &view, view_bar::beside(free), session, commands);
+        let area = view_bar::beside(free);
+        let texts = edge_sliders::beside(area, session);
+        self.captions.ui(ui, &view, texts, session, commands);
 
         match session.tool() {
             Tool::Place(TemplateKind::Sweep) => {
                 self.gizmo.release();
+                mirrors::paint(ui, &view, session);
                 self.shaping.paint(ui, &view, session);
                 shaping::bar_ui(ui, bars, session, commands);
                 shaping::what_to_do_ui(ui, free);
@@ -234,6 +238,7 @@ impl Viewport {
                 ball::bar_ui(ui, bars, session, erases, commands);
             }
             Tool::Clay => {
+                mirrors::paint(ui, &view, session);
                 if !self.gizmo.is_hot() {
                     self.shaping.paint(ui, &view, session);
                 }
@@ -276,6 +281,7 @@ impl Viewport {
                 self.gizmo.release();
             }
         }
+        edge_sliders::ui(ui, area, &view, session, commands);
         view_bar::corner_ui(ui, rect, &view, session, commands);
         if response.has_focus() {
             widget::focus_ring(ui, &response, rect.shrink(1.0));

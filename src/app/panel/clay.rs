@@ -3,7 +3,7 @@
 use egui::{Label, RichText, Ui};
 use serde_json::json;
 
-use super::hand;
+use super::{hand, stroke};
 use crate::app::kit::entry::EntryRow;
 use crate::app::kit::icon::Icon;
 use crate::app::kit::theme::Palette;
@@ -130,6 +130,9 @@ fn list_ui(ui: &mut Ui, session: &Session, clay: &Clay, commands: &mut Vec<Comma
                     }
                 });
             });
+            if session.selection.stroke() == Some(i) {
+                stroke::ui(ui, clay, (i, stroke), commands);
+            }
         });
     }
 }

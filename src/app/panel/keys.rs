@@ -11,7 +11,7 @@ use crate::app::words::slices;
 use crate::app::words::{authoring, clay};
 
 /// What the mouse and fingers do in the picture.
-fn gestures() -> [(&'static str, &'static str); 14] {
+fn gestures() -> [(&'static str, &'static str); 15] {
     let (w, c) = (w(), clay::w());
     [
         (w.drag, w.turn_object),
@@ -27,6 +27,7 @@ fn gestures() -> [(&'static str, &'static str); 14] {
         (w.ball, w.ball_does),
         (c.key_size, c.key_size_does),
         (c.key_turn, c.key_turn_does),
+        (c.key_over, c.key_over_does),
         (c.key_act, c.act),
     ]
 }

@@ -28,6 +28,7 @@ pub(crate) mod share;
 pub(crate) mod shortcuts;
 pub(crate) mod steps;
 pub(crate) mod strip;
+mod stroke;
 mod style;
 mod sweep;
 pub(crate) mod templates;

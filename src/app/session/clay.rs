@@ -5,6 +5,9 @@ use glam::{Quat, Vec3};
 use super::found::Found;
 use crate::document::{ClayMove, ClayStart, ClayTool};
 
+/// Where the strokes of a clay stand in a document.
+pub(super) const STROKES: &str = "/subject/clay/strokes";
+
 /// A tool with its way, laid down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ghost {
@@ -61,6 +64,15 @@ impl Together {
     }
 }
 
+/// What can be changed of a stroke that is there, beside its ways.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StrokeChange {
+    /// The tool of the way of this index.
+    Tool(usize, ClayTool),
+    /// The axes across which its tools have mirror images: x, y and z.
+    Mirror([bool; 3]),
+}
+
 /// One thing to do with a clay.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ClayCommand {
@@ -84,6 +96,15 @@ pub enum ClayCommand {
     RemoveGhost(usize),
     /// Switches the stroke of this index off, or on again.
     Switch(usize),
+    /// Changes the stroke of this index.
+    Change {
+        /// Its index.
+        stroke: usize,
+        /// What is changed.
+        change: StrokeChange,
+        /// It is a part of a drag, which is one step of undo as a whole.
+        is_drag: bool,
+    },
     /// Removes the stroke of this index.
     Remove(usize),
     /// Selects the stroke of this index.

@@ -64,7 +64,7 @@ pub(super) fn gesture(
         percent: 100,
     };
     let begin = key(at, degrees(turn));
-    let [right, up, _] = camera::axes(camera.rotate);
+    let [right, up, back] = camera::axes(camera.rotate);
     let gone = last.pos - first.pos;
     let [across, risen] = [gone.dot(right), gone.dot(up)];
     let (keys, is_straight) = match way {
@@ -84,8 +84,12 @@ pub(super) fn gesture(
             keys.dedup_by_key(|key| key.at);
             (keys, is_straight)
         }
-        StrokeWay::Push => {
-            // Up pulls.
+        StrokeWay::Push | StrokeWay::PushOver => {
+            // Up pulls, or pushes where that is turned over.
+            let risen = match way {
+                StrokeWay::PushOver => -risen,
+                _ => risen,
+            };
             let from = match risen > 0.0 {
                 true => first.pos - INSIDE * hand.size * first.normal,
                 false => first.pos + OUTSIDE * hand.size * first.normal,
@@ -93,13 +97,14 @@ pub(super) fn gesture(
             let to = from + risen * first.normal;
             (vec![key(from, begin.turn), key(to, [0; 3])], false)
         }
-        StrokeWay::Turn => {
+        StrokeWay::Turn | StrokeWay::TurnInView => {
+            let axis = match way {
+                StrokeWay::Turn => first.normal,
+                _ => back,
+            };
             let angle = (TURN * across / seen_across(camera)).round();
             let parts = (angle.abs() / TURN_OF_KEY).ceil().max(1.0);
-            let by = (first.normal * (angle / parts))
-                .round()
-                .as_ivec3()
-                .to_array();
+            let by = (axis * (angle / parts)).round().as_ivec3().to_array();
             let turned = std::iter::repeat_n(key(at, by), parts as usize);
             (std::iter::once(begin).chain(turned).collect(), true)
         }
@@ -198,6 +203,15 @@ fn distance_to(pos: Vec3, from: Vec3, to: Vec3) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_turn_of_a_key_is_the_shorter_one() {
+        let about_z = |degrees: f32| Quat::from_rotation_z(degrees.to_radians());
+        assert_eq!(degrees(about_z(90.0)), [0, 0, 90]);
+        assert_eq!(degrees(-about_z(90.0)), [0, 0, 90]);
+        assert_eq!(degrees(about_z(270.0)), [0, 0, -90]);
+        assert_eq!(degrees(about_z(180.0))[2].abs(), 178);
+    }
 
     #[test]
     fn a_way_is_thinned_to_few_keys_near_it() {

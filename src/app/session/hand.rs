@@ -17,10 +17,14 @@ pub enum StrokeWay {
     Move,
     /// It goes along the surface's normal: up pulls, down pushes.
     Push,
+    /// The same turned over, as with Alt held: up pushes, down pulls.
+    PushOver,
     /// It follows what is under the hand.
     Along,
     /// It turns about the surface's normal.
     Turn,
+    /// It turns about the line of sight.
+    TurnInView,
     /// It grows, and shrinks.
     Grow,
     /// What is under the hand is smoothed.
@@ -33,18 +37,36 @@ pub enum StrokeWay {
 
 impl StrokeWay {
     /// What drags may do to a clay, in the order of the buttons.
-    pub const OF_CLAYS: [Self; 7] = [
+    pub const OF_CLAYS: [Self; 8] = [
         Self::Move,
         Self::Push,
         Self::Along,
         Self::Turn,
+        Self::TurnInView,
         Self::Grow,
         Self::Smooth,
         Self::Place,
     ];
 
     /// What they may do where they draw a sweep.
-    pub const OF_SWEEPS: [Self; 5] = [Self::Move, Self::Push, Self::Along, Self::Turn, Self::Grow];
+    pub const OF_SWEEPS: [Self; 6] = [
+        Self::Move,
+        Self::Push,
+        Self::Along,
+        Self::Turn,
+        Self::TurnInView,
+        Self::Grow,
+    ];
+
+    /// The same with Alt held, or without it: that turns push and pull over, and nothing else.
+    #[must_use]
+    pub fn with_alt(self, is_held: bool) -> Self {
+        match self {
+            Self::Push | Self::PushOver if is_held => Self::PushOver,
+            Self::Push | Self::PushOver => Self::Push,
+            other => other,
+        }
+    }
 
     /// True if the picture is asked for the surface all along the way of the hand.
     pub fn follows_surface(self) -> bool {
@@ -146,6 +168,20 @@ impl HeldTool {
         }
     }
 
+    /// A hand that holds a tool which is there, in its own proportions; `None` of a form that this version does not
+    /// have.
+    pub fn with_tool(tool: &ClayTool) -> Option<Self> {
+        let own = tool.shape.clone()?;
+        let form = Self::FORMS.iter().position(|name| *name == own.name());
+        Some(Self {
+            form: form.unwrap_or_default(),
+            size: own.half_side(),
+            own: Some(own),
+            coat: tool.coat as f32,
+            ..Self::default()
+        })
+    }
+
     /// Where the tool stands over a place of the clay, and how it is turned. The form of index 0, a ball, is the same
     /// however it is turned.
     pub fn pose(&self, touch: &Touch) -> (Vec3, Quat) {
@@ -169,7 +205,8 @@ impl HeldTool {
         self.depth + part.abs() * (end - self.depth)
     }
 
-    pub(super) fn tool(&self) -> ClayTool {
+    /// The tool, as a clay lists it.
+    pub fn tool(&self) -> ClayTool {
         ClayTool {
             shape: Some(self.shape()),
             coat: (f64::from(self.coat) * 1e3).round() / 1e3,

@@ -72,6 +72,7 @@ mod small_picture;
 mod sought;
 mod starting;
 mod steps;
+mod strokes;
 mod surface;
 mod taken;
 mod templates;
@@ -89,7 +90,7 @@ mod recording_tests;
 mod tests;
 
 pub use self::camera::StandardView;
-pub use self::clay::{ClayCommand, Ghost, Pose, Together};
+pub use self::clay::{ClayCommand, Ghost, Pose, StrokeChange, Together};
 pub use self::clipboard::{Clipboard, Copied};
 pub use self::command::{Command, GizmoMode, PicturePaper, StepCommand};
 pub use self::effect::{Effect, Focus, LinkChange, SaveFile};
@@ -110,11 +111,11 @@ pub use self::question::{Place, Question, Sight};
 pub use self::run::{STORED_HINT, STORED_LETTERING, STORED_SLOW, STORED_TITLE};
 pub use self::selection::Selection;
 pub use self::session::{Load, LoadOf, MeshQuestion, STORED_DOCUMENT, Session, Tab};
-pub use self::shaping::{with_key_at, without_key};
 pub use self::small_picture::{
     STORED_PICTURE, STORED_RECENT_PICTURES, SmallPicture, changed_pictures, picture_of,
 };
 pub use self::sought::Sought;
+pub use self::strokes::{with_key_at, without_key};
 pub use self::taken::Taken;
 pub use self::ticket::Ticket;
 pub use self::tissues::{TissueCommand, Tissues};

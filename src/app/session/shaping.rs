@@ -1,11 +1,10 @@
 //! Shaping a clay by hand: what a drag over it becomes. A gesture is one stroke of the recipe, thinned to few keys, and
 //! one step of undo.
 
-use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-use super::clay::{ClayCommand, Ghost};
-use super::gesture::{Gesture, degrees, gesture, thousandths};
+use super::clay::{ClayCommand, Ghost, STROKES};
+use super::gesture::{Gesture, gesture};
 use super::hand::{HeldTool, StrokeWay, Touch};
 use super::notices::Gravity;
 use super::selection::Selection;
@@ -18,9 +17,9 @@ use crate::document::{
     SubjectRef, ToolShape, VoxelPart, VoxelSource,
 };
 
-/// Where the tools and the strokes of a clay stand in a document.
+/// Where the tools of a clay stand in a document.
 const TOOLS: &str = "/subject/clay/tools";
-const STROKES: &str = "/subject/clay/strokes";
+
 impl Session {
     /// The clay of the document, if its subject is one.
     pub fn clay(&self) -> Option<&Arc<Clay>> {
@@ -73,6 +72,11 @@ impl Session {
             ClayCommand::Remove(stroke) => {
                 self.apply(&Edit::RemoveStroke { stroke }, false);
             }
+            ClayCommand::Change {
+                stroke,
+                change,
+                is_drag,
+            } => self.change_stroke(stroke, change, is_drag),
             ClayCommand::Select(index) => self.select(Selection::Stroke(index)),
         }
     }
@@ -113,8 +117,8 @@ impl Session {
             own: Some(shape),
             ..self.clay_hand.clone()
         };
-        let Some((_, tools)) = self.places_of_tools(&clay, clay.strokes.len(), &[hand.tool()])
-        else {
+        let used = used_tools(&clay, |_, _| true);
+        let Some((_, tools)) = self.places_of_tools(&clay, used, &[hand.tool()]) else {
             return self.tell_of_many_tools();
         };
         if let Some(edit) = tools {
@@ -127,7 +131,7 @@ impl Session {
         }
     }
 
-    fn tell_of_many_tools(&mut self) {
+    pub(super) fn tell_of_many_tools(&mut self) {
         let text = fill(w().too_many_tools, &[&Clay::MAX_TOOLS]);
         self.notify(Gravity::Info, text, "");
     }
@@ -145,41 +149,6 @@ impl Session {
         self.selection = Selection::Nothing;
         self.drawn_stroke = None;
         self.take_tool(Tool::Clay);
-    }
-
-    pub(super) fn switch_stroke(&mut self, index: usize) {
-        let stroke = self.clay().and_then(|clay| clay.strokes.get(index));
-        let Some(stroke) = stroke else {
-            return;
-        };
-        let value = (!stroke.is_off).then_some(serde_json::Value::Bool(true));
-        let name = match stroke.is_off {
-            true => "Show stroke",
-            false => "Hide stroke",
-        };
-        let pointer = format!("{STROKES}/{index}/off");
-        self.apply(&Edit::put(pointer, value, name.to_owned()), false);
-    }
-
-    /// The edit that puts a stroke elsewhere among the others. The entries between the two places are written anew as
-    /// they stand in the document: how many of them are shown stays as it is.
-    pub(super) fn moved_stroke(&self, from: usize, to: usize) -> Option<Edit> {
-        let mut list = self.document().get(STROKES)?.as_array()?.clone();
-        if from.max(to) >= list.len() {
-            return None;
-        }
-        let stroke = list.remove(from);
-        list.insert(to, stroke);
-        let name = "Move stroke".to_owned();
-        let entries = list.into_iter().enumerate();
-        let changed = entries.filter(|(i, _)| (from.min(to)..=from.max(to)).contains(i));
-        let edits = changed.map(|(i, value)| Edit::Set {
-            pointer: format!("{STROKES}/{i}"),
-            value,
-            name: name.clone(),
-        });
-        let edits = edits.collect();
-        Some(Edit::All { name, edits })
     }
 
     /// Takes the way of a hand that shapes the clay. The whole gesture is one step of undo. While strokes are laid down
@@ -215,7 +184,8 @@ impl Session {
             return false;
         };
         let index = drawn.unwrap_or(clay.strokes.len());
-        let Some((places, list)) = self.places_of_tools(&clay, index, tools) else {
+        let used = used_tools(&clay, |stroke, _| stroke != index);
+        let Some((places, list)) = self.places_of_tools(&clay, used, tools) else {
             self.tell_of_many_tools();
             return false;
         };
@@ -252,21 +222,14 @@ impl Session {
     }
 
     /// The places of tools in the clay's list, and the edit that puts those there that have none yet: in place of some
-    /// that no other stroke than that of the index uses, or behind the others. A curve, a mesh and a baked clay give
-    /// way to what has their form alone. `None` if all places are taken.
-    fn places_of_tools(
+    /// that are not among those used, or behind the others. A curve, a mesh and a baked clay give way to what has their
+    /// form alone. `None` if all places are taken.
+    pub(super) fn places_of_tools(
         &self,
         clay: &Clay,
-        stroke: usize,
+        mut used: Vec<usize>,
         tools: &[ClayTool],
     ) -> Option<(Vec<usize>, Option<Edit>)> {
-        let others = clay
-            .strokes
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| *i != stroke);
-        let moves = others.flat_map(|(_, stroke)| &stroke.moves);
-        let mut used: Vec<usize> = moves.map(|one| one.tool).collect();
         let listed = self.document().get(TOOLS).and_then(|list| list.as_array());
         let own = || clay.tools.iter().map(ClayTool::to_value).collect();
         let mut list: Vec<serde_json::Value> = listed.cloned().unwrap_or_else(own);
@@ -301,58 +264,23 @@ impl Session {
     }
 }
 
+/// The places of the tools that ways of strokes use, of those ways that are asked about by the index of their stroke and
+/// their own.
+pub(super) fn used_tools(clay: &Clay, is_asked: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    let strokes = clay.strokes.iter().enumerate();
+    let ways = strokes.flat_map(|(i, stroke)| {
+        let moves = stroke.moves.iter().enumerate();
+        moves.map(move |(j, one)| ((i, j), one.tool))
+    });
+    let used = ways.filter(|((i, j), _)| is_asked(*i, *j));
+    used.map(|(_, tool)| tool).collect()
+}
+
 /// Puts an entry into a list, in place of the one of this index or behind the others.
 fn put<T>(list: &mut Vec<T>, index: usize, entry: T) {
     match list.get_mut(index) {
         Some(there) => *there = entry,
         None => list.push(entry),
-    }
-}
-
-/// A stroke with a key of one of its tools elsewhere, subject space; the edit is of the stroke of this index.
-pub fn with_key_at(
-    index: usize,
-    stroke: &ClayStroke,
-    (one, key): (usize, usize),
-    pos: Vec3,
-) -> Edit {
-    let mut new = stroke.clone();
-    if let Some(key) = new.moves.get_mut(one).and_then(|one| one.keys.get_mut(key)) {
-        key.at = thousandths(pos);
-    }
-    changed(index, &new)
-}
-
-/// A stroke without a key of one of its tools; `None` for the last one, as a path has one at least. Its turn goes on to
-/// the next key, so that what is behind stays as it was.
-pub fn without_key(index: usize, stroke: &ClayStroke, (one, key): (usize, usize)) -> Option<Edit> {
-    let mut new = stroke.clone();
-    let keys = &mut new.moves.get_mut(one)?.keys;
-    if keys.len() < 2 || key >= keys.len() {
-        return None;
-    }
-    let gone = keys.remove(key).turn;
-    if let Some(next) = keys.get_mut(key) {
-        next.turn = both_turns(gone, next.turn);
-    }
-    Some(changed(index, &new))
-}
-
-/// A turn and then another, degrees about the axes of the subject. About one axis they add up, beyond half a turn too.
-fn both_turns(first: [i32; 3], second: [i32; 3]) -> [i32; 3] {
-    let [a, b] = [first, second].map(|turn| Vec3::from_array(turn.map(|x| x as f32)));
-    if a.cross(b) == Vec3::ZERO {
-        return (a + b).as_ivec3().to_array();
-    }
-    let [a, b] = [a, b].map(|turn| Quat::from_scaled_axis(turn * (std::f32::consts::PI / 180.0)));
-    degrees(b * a)
-}
-
-fn changed(index: usize, stroke: &ClayStroke) -> Edit {
-    Edit::Set {
-        pointer: format!("{STROKES}/{index}"),
-        value: stroke.to_value(),
-        name: "Change stroke".to_owned(),
     }
 }
 
@@ -436,7 +364,8 @@ mod tests {
     use crate::app::session::shape::seen_across;
     use crate::app::session::{Command, Effect, HandCommand, See, Ticket};
     use crate::data::{Subject, Surface};
-    use crate::document::{ClayKey, ClayShape, Document, clay_to_text};
+    use crate::document::{ClayShape, Document, clay_to_text};
+    use glam::Vec3;
 
     const UP: Touch = Touch {
         pos: Vec3::new(0.2, 0.0, 0.45),
@@ -565,7 +494,7 @@ mod tests {
             strokes(&session).first().cloned()
         };
         let camera = Camera::DOCUMENT_DEFAULT;
-        let [right, up, _] = camera::axes(camera.rotate);
+        let [right, up, back] = camera::axes(camera.rotate);
         let pulled = drawn(StrokeWay::Push, 0.2 * up).expect("a pull");
         let [from, to] = &pulled.moves[0].keys[..] else {
             panic!("two keys")
@@ -573,9 +502,23 @@ mod tests {
         assert!(from.at[2] < 450 && to.at[2] - from.at[2] == 200);
         let pushed = drawn(StrokeWay::Push, -0.2 * up).expect("a push");
         assert!(pushed.moves[0].keys[0].at[2] > 450);
+        for (by, same) in [(0.2, &pushed), (-0.2, &pulled)] {
+            let over = drawn(StrokeWay::PushOver, by * up);
+            assert_eq!(over.as_ref(), Some(same), "Alt turns it over");
+        }
         let turned = drawn(StrokeWay::Turn, 0.5 * seen_across(&camera) * right).expect("a turn");
         let by: i32 = turned.moves[0].keys.iter().map(|key| key.turn[2]).sum();
         assert_eq!((by, turned.moves[0].keys.len()), (180, 3));
+        let half = 0.5 * seen_across(&camera) * right;
+        let seen = drawn(StrokeWay::TurnInView, half).expect("a turn");
+        let turns = seen.moves[0].keys.iter().map(|key| key.turn);
+        let by: Vec3 = turns
+            .map(|turn| Vec3::from_array(turn.map(|x| x as f32)))
+            .sum();
+        assert!(
+            by.distance(180.0 * back) < 3.0,
+            "about the line of sight: {by}"
+        );
         let grown = drawn(StrokeWay::Grow, 0.25 * seen_across(&camera) * up).expect("growth");
         assert_eq!(grown.moves[0].keys[1].percent, 200);
         let smoothed = drawn(StrokeWay::Smooth, Vec3::ZERO).expect("a touch is enough");
@@ -583,7 +526,9 @@ mod tests {
         for way in [
             StrokeWay::Move,
             StrokeWay::Push,
+            StrokeWay::PushOver,
             StrokeWay::Turn,
+            StrokeWay::TurnInView,
             StrokeWay::Grow,
         ] {
             assert_eq!(
@@ -669,40 +614,6 @@ mod tests {
         assert_eq!(session.clay().expect("a clay").strokes[1].moves[0].tool, 3);
     }
 
-    #[test]
-    fn a_key_goes_and_what_is_behind_it_stays() {
-        let key = |turn| ClayKey {
-            at: [0; 3],
-            turn,
-            percent: 100,
-        };
-        let turned = |turns: &[[i32; 3]]| ClayStroke {
-            moves: vec![ClayMove {
-                tool: 0,
-                keys: turns.iter().map(|turn| key(*turn)).collect(),
-                is_straight: true,
-            }],
-            mirror: [false; 3],
-            smooth: None,
-            is_off: false,
-        };
-        let left = |stroke: &ClayStroke, gone: usize| match without_key(3, stroke, (0, gone)) {
-            Some(Edit::Set { pointer, value, .. }) => {
-                assert_eq!(pointer, "/subject/clay/strokes/3");
-                value["turns"].to_string()
-            }
-            other => panic!("{other:?}"),
-        };
-        let about_z = turned(&[[0; 3], [0, 0, 120], [0, 0, 100]]);
-        assert_eq!(left(&about_z, 1), "[0,0,0,0,0,220]");
-        let about_both = turned(&[[90, 0, 0], [0, 90, 0]]);
-        // Half way between the axes, a third of a turn.
-        assert_eq!(left(&about_both, 0), "[69,69,-69]");
-        assert_eq!(without_key(0, &turned(&[[0; 3]]), (0, 0)), None);
-        assert_eq!(without_key(0, &about_z, (0, 7)), None);
-        assert_eq!(without_key(0, &about_z, (1, 0)), None);
-    }
-
     /// A stroke that this version does not know, unknown keys and the numbers of steps outlive strokes beside them.
     #[test]
     fn strokes_go_beside_what_is_not_known() {
@@ -722,40 +633,6 @@ mod tests {
         }
         assert!(written.contains(r#""/look/strokes":0"#), "{written}");
         assert_eq!(session.illustration().strokes_shown(), Some(1), "{written}");
-    }
-
-    #[test]
-    fn a_stroke_goes_elsewhere_and_as_many_are_shown() {
-        let json = r#"{ "fabrica": 1, "subject": { "clay": { "strokes": [
-            { "path": [0, 0, 400, 0, 0, 100] }, { "path": [1, 2, 3], "do": "carve", "x-deep": 7 },
-            { "path": [0, 0, -400, 0, 0, -100] }] } },
-            "look": { "strokes": 1 }, "steps": [{ "set": { "/look/strokes": 2 } }] }"#;
-        let mut session = Session::new(Document::from_json(json).expect("a document"));
-        let before = session.document().to_json_compact();
-        session.run(Command::Clay(ClayCommand::Select(0)), 0.0);
-        // The last one stands on top of the list.
-        session.run(Command::ShiftSelected(1), 0.0);
-        assert_eq!(session.selection.stroke(), Some(0), "it is the lowest");
-        session.run(Command::ShiftSelected(-1), 0.0);
-        assert_eq!(session.selection.stroke(), Some(1));
-        let listed = |session: &Session| session.document().get(STROKES).cloned();
-        let strokes = listed(&session).expect("strokes");
-        assert_eq!(strokes[0]["x-deep"], 7);
-        assert_eq!(strokes[1]["path"][2], 400);
-        assert_eq!(session.strokes_shown(), 1);
-        let written = session.document().to_json_compact();
-        assert!(written.contains(r#""/look/strokes":2"#), "{written}");
-        session.run(Command::Undo, 0.0);
-        assert_eq!(session.document().to_json_compact(), before);
-    }
-
-    #[test]
-    fn the_turn_of_a_key_is_the_shorter_one() {
-        let about_z = |degrees: f32| Quat::from_rotation_z(degrees.to_radians());
-        assert_eq!(degrees(about_z(90.0)), [0, 0, 90]);
-        assert_eq!(degrees(-about_z(90.0)), [0, 0, 90]);
-        assert_eq!(degrees(about_z(270.0)), [0, 0, -90]);
-        assert_eq!(degrees(about_z(180.0))[2].abs(), 178);
     }
 
     #[test]

@@ -4,16 +4,15 @@ use glam::Vec3;
 
 use super::clay::Ghost;
 use super::gesture::thousandths;
-use super::hand::HeldTool;
 use super::notices::Gravity;
 use super::session::Session;
 use crate::app::words::clay::w;
 use crate::app::words::fill;
 use crate::document::{Clay, ClayMove, ClayStroke, ClayTool};
 
-/// True if so many tools with the mirror images of a hand may act at once.
-fn has_room(count: usize, hand: &HeldTool) -> bool {
-    let mirrors = hand.mirror.iter().filter(|is_on| **is_on).count();
+/// True if so many tools with their mirror images may act at once.
+fn has_room(count: usize, mirror: [bool; 3]) -> bool {
+    let mirrors = mirror.iter().filter(|is_on| **is_on).count();
     count << mirrors <= Clay::MAX_AT_ONCE
 }
 
@@ -29,7 +28,8 @@ impl Session {
 
     /// Lays a way down. True if it may act with the others.
     pub(super) fn lay_ghost(&mut self, ghost: Ghost) -> bool {
-        let has_room = self.has_room_for(self.together.ghosts.len() + 1);
+        let count = self.together.ghosts.len() + 1;
+        let has_room = self.has_room_for(count, self.clay_hand.mirror);
         if has_room {
             self.together.ghosts.push(ghost);
             self.together.taken_back.clear();
@@ -42,7 +42,8 @@ impl Session {
         let Some(ghost) = self.together.taken_back.pop() else {
             return false;
         };
-        if self.has_room_for(self.together.ghosts.len() + 1) {
+        let count = self.together.ghosts.len() + 1;
+        if self.has_room_for(count, self.clay_hand.mirror) {
             self.lift_ghost();
             self.together.ghosts.push(ghost);
         } else {
@@ -52,8 +53,8 @@ impl Session {
     }
 
     /// True if so many tools may act at once; else a message says so.
-    fn has_room_for(&mut self, count: usize) -> bool {
-        let has_room = has_room(count, &self.clay_hand);
+    pub(super) fn has_room_for(&mut self, count: usize, mirror: [bool; 3]) -> bool {
+        let has_room = has_room(count, mirror);
         if !has_room {
             let text = fill(w().too_many_at_once, &[&Clay::MAX_AT_ONCE]);
             self.notify(Gravity::Info, text, "");
@@ -64,7 +65,7 @@ impl Session {
     /// Does what is laid down as one stroke, if any of it moves: the first way is the stroke's own.
     pub(super) fn act_together(&mut self) {
         let count = self.together.ghosts.len();
-        if !self.together.may_act() || !self.has_room_for(count) {
+        if !self.together.may_act() || !self.has_room_for(count, self.clay_hand.mirror) {
             return;
         }
         let ghosts = self.together.ghosts.iter().enumerate();
@@ -129,7 +130,9 @@ impl Session {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::session::{ClayCommand, Command, HandCommand, StrokeWay, Tool, Touch};
+    use crate::app::session::{
+        ClayCommand, Command, HandCommand, HeldTool, StrokeWay, Tool, Touch,
+    };
     use crate::document::{ClayShape, ClayStart, Document};
 
     fn run(session: &mut Session, command: ClayCommand) {

@@ -16,12 +16,14 @@ words! {
         push: "Push, pull", "Drücken, heben", "Empujar, tirar", "推拉";
         along: "Along", "Entlang", "A lo largo", "沿面";
         turn: "Turn", "Drehen", "Girar", "扭转";
+        turn_in_view: "Turn in view", "Im Bild drehen", "Girar en la vista", "画面内扭转";
         grow: "Grow", "Wachsen", "Crecer", "膨大";
         smooth: "Smooth", "Glätten", "Alisar", "平滑";
         move_hint: "The tool goes with the hand, in the plane of the picture; Shift on the way keeps it to one axis", "Das Werkzeug geht mit der Hand, in der Bildebene; Umschalt unterwegs hält es auf einer Achse", "El instrumento sigue a la mano, en el plano de la imagen; Mayús por el camino lo mantiene en un eje", "器械在图像平面内随手移动；途中按 Shift 使其保持单轴";
-        push_hint: "Up pulls out of the surface, down pushes into it", "Nach oben hebt aus der Fläche, nach unten drückt hinein", "Hacia arriba tira de la superficie, hacia abajo la hunde", "向上拉出表面，向下压入";
+        push_hint: "Up pulls out of the surface, down pushes into it; Alt turns that over", "Nach oben hebt aus der Fläche, nach unten drückt hinein; Alt kehrt das um", "Hacia arriba tira de la superficie, hacia abajo la hunde; Alt lo invierte", "向上拉出表面，向下压入；按住 Alt 则相反";
         along_hint: "The tool follows the surface under the hand", "Das Werkzeug folgt der Fläche unter der Hand", "El instrumento sigue la superficie bajo la mano", "器械沿手下的表面移动";
         turn_hint: "Sideways turns the tool about the surface's normal", "Seitwärts dreht das Werkzeug um die Flächennormale", "De lado gira el instrumento sobre la normal de la superficie", "左右拖动使器械绕表面法线旋转";
+        turn_in_view_hint: "Sideways turns the tool about the line of sight, as the picture shows it", "Seitwärts dreht das Werkzeug um die Blickrichtung, wie man es im Bild sieht", "De lado gira el instrumento sobre la línea de visión, tal como se ve en la imagen", "左右拖动使器械绕视线旋转，如画面所见";
         grow_hint: "Up makes the tool grow and what is in it, down makes it shrink", "Nach oben wächst das Werkzeug und was in ihm ist, nach unten schrumpft es", "Hacia arriba crece el instrumento y lo que contiene, hacia abajo encoge", "向上使器械及其中部分变大，向下变小";
         smooth_hint: "What is under the hand is smoothed; with Shift held any drag does", "Was unter der Hand ist, wird geglättet; mit Umschalt tut es jedes Ziehen", "Alisa lo que está bajo la mano; con Mayús lo hace cualquier arrastre", "平滑手下的部分；按住 Shift 时任何拖动皆如此";
         place: "Place", "Hinlegen", "Colocar", "放置";
@@ -37,6 +39,10 @@ words! {
         size_hint: "Half the length of the tool; [ and ], or F held and the pointer or the wheel", "Halbe Länge des Werkzeugs; [ und ] oder F halten und Zeiger oder Rad bewegen", "Mitad de la longitud del instrumento; [ y ], o F pulsada y el puntero o la rueda", "器械长度的一半；[ 和 ]，或按住 F 移动指针或滚动滚轮";
         coat: "Coating", "Mantel", "Recubrimiento", "影响层";
         coat_hint: "Width around the tool in which the motion fades; as the size, with Shift and F", "Breite um das Werkzeug, in der die Bewegung abklingt; wie die Größe, mit Umschalt und F", "Anchura en torno al instrumento en que el movimiento se atenúa; como el tamaño, con Mayús y F", "器械周围运动逐渐减弱的宽度；同大小，用 Shift 和 F";
+        stroke_size_hint: "Half the length of the tool; later strokes are done again", "Halbe Länge des Werkzeugs; spätere Striche werden neu gemacht", "Mitad de la longitud del instrumento; los trazos posteriores se repiten", "器械长度的一半；之后的笔划会重做";
+        stroke_coat_hint: "Width around the tool in which the motion fades; later strokes are done again", "Breite um das Werkzeug, in der die Bewegung abklingt; spätere Striche werden neu gemacht", "Anchura en torno al instrumento en que el movimiento se atenúa; los trazos posteriores se repiten", "器械周围运动逐渐减弱的宽度；之后的笔划会重做";
+        size_of_tool: "Size of the tool", "Größe des Werkzeugs", "Tamaño del instrumento", "器械的大小";
+        coat_of_tool: "Coating of the tool", "Mantel des Werkzeugs", "Recubrimiento del instrumento", "器械的影响层";
         depth: "Depth", "Tiefe", "Profundidad", "深度";
         depth_hint: "How deep the tool is sunk where the drag begins: 0 % by half. A pen sinks it deeper by pressing harder", "Wie tief das Werkzeug am Anfang des Zuges steckt: 0 % zur Hälfte. Ein Stift senkt es tiefer, wenn er stärker drückt", "Cuánto se hunde el instrumento al empezar: 0 % hasta la mitad. Un lápiz lo hunde más si presiona más", "拖动开始时器械陷入的深度：0 % 为一半。触控笔压得越重，陷入越深";
         angle: "Angle", "Winkel", "Ángulo", "角度";
@@ -66,6 +72,8 @@ words! {
         key_size_does: "Size the tool; with Shift its coating", "Größe des Werkzeugs; mit Umschalt der Mantel", "Tamaño del instrumento; con Mayús el recubrimiento", "调整器械大小；加 Shift 调影响层";
         key_turn: "R held with a tool", "R halten mit Werkzeug", "R pulsada con un instrumento", "持器械时按住 R";
         key_turn_does: "Turn the tool", "Werkzeug drehen", "Girar el instrumento", "转动器械";
+        key_over: "Alt with push, pull", "Alt bei Drücken, heben", "Alt con empujar, tirar", "推拉时按住 Alt";
+        key_over_does: "Up pushes, down pulls", "Nach oben drückt, nach unten hebt", "Hacia arriba empuja, hacia abajo tira", "向上压入，向下拉出";
         key_act: "Enter over clay", "Eingabe über Ton", "Intro sobre arcilla", "在黏土上按回车";
         key_together: "Lay strokes on clay down, or do them again", "Striche auf Ton vormerken oder wieder ausführen", "Dejar previstos los trazos sobre arcilla, o volver a hacerlos", "预置黏土笔划，或恢复直接执行";
         together: "Together", "Gemeinsam", "A la vez", "同时";
