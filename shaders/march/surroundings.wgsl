@@ -38,7 +38,7 @@ fn shading_opacity(found: Sample) -> f32 {
     var left = select(0u, 1u, found.opacity > VISIBLE);
     while left > 0u {
         left--;
-        gain = edge_gain(length(gradient_by(texture_from_rest(found.pos), false)) * look.table_scale);
+        gain = edge_gain(length(quick_gradient_at(texture_from_rest(found.pos))) * look.table_scale);
         if has_bodies != 0u {
             gain = mix(gain, 1.0, body_weight(body_at(found.pos)));
         }

@@ -29,9 +29,9 @@ pub(crate) const METHODS: [(u32, &str); 7] = [
     (QUICK, "Jacobian, two reaches at rest"),
 ];
 
-/// The gradient at rest of a finished picture: by Sobel's operator.
+/// The gradient at rest of a picture: by Sobel's operator.
 pub(crate) const FINE: u32 = 1;
-/// That of a picture of what moves, and of all pictures before: the mean of central differences of two reaches.
+/// That of pictures before: the mean of central differences of two reaches.
 pub(crate) const QUICK: u32 = 6;
 
 /// The exact map at points, by the program's WGSL.

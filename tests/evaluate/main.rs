@@ -106,8 +106,8 @@ fn the_jacobian_gives_the_best_normals() {
             "{name}: {errors:?}"
         );
         assert!(own < 1.3 * mean("Sobel on the fly"), "{name}: {errors:?}");
-        // What the program takes at rest is as good; what it takes while something moves reaches farther and rounds
-        // curved surfaces.
+        // What the program takes is as good; what it takes for taps around a surface reaches farther and rounds curved
+        // surfaces.
         assert!(mean("Jacobian") < 1.1 * own, "{name}: {errors:?}");
         assert!(
             mean("Jacobian, two reaches at rest") < 3.5,
@@ -117,7 +117,7 @@ fn the_jacobian_gives_the_best_normals() {
 }
 
 #[test]
-fn finished_pictures_have_smoother_normals() {
+fn pictures_have_smoother_normals_than_two_reaches() {
     let surface = Surface::new(report::BALL, &[], 1.0 / 80.0, 2_000);
     for (name, scanner) in report::SCANNERS {
         let scan = Scan::by(report::BALL, scanner);

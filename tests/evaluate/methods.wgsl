@@ -52,8 +52,10 @@ fn by_jacobian(pos: vec3f) -> vec3f {
     var grad = vec3f(0.0);
     if method == JACOBIAN_OF_SOBEL {
         grad = sobel_at_rest(uvw);
+    } else if method == JACOBIAN {
+        grad = gradient_at(uvw);
     } else {
-        grad = gradient_by(uvw, method == JACOBIAN);
+        grad = quick_gradient_at(uvw);
     }
     var carried = vec3f(0.0);
     for (var i = 0u; i < 3u; i++) {

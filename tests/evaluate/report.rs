@@ -250,7 +250,7 @@ pub(crate) const BALL: Object = Object::Egg(DVec3::splat(0.36));
 
 fn grain(page: &mut Page) {
     page.section("Normals of a smooth surface");
-    page.text("A ball of radius 0.36 in scans of 80 × 80 voxels a slice, values from 0 to 1 with an edge as soft as a CT’s. Angles between the normals of a picture and those of the ball at 4,000 places, degrees: by central differences of two reaches, which pictures had before and have while something moves, and by Sobel’s operator, which finished ones have.");
+    page.text("A ball of radius 0.36 in scans of 80 × 80 voxels a slice, values from 0 to 1 with an edge as soft as a CT’s. Angles between the normals of a picture and those of the ball at 4,000 places, degrees: by central differences of two reaches, which pictures had before, and by Sobel’s operator, which they have.");
     let rows: Vec<_> = SCANNERS
         .iter()
         .map(|(name, scanner)| {
@@ -269,7 +269,7 @@ fn grain(page: &mut Page) {
 
 fn normals(page: &mut Page) {
     page.section("Normals (6.3)");
-    page.text("An ellipsoid of known surface, scanned at 96³ with an edge as soft as a CT’s, deformed, and its normals found by each method at 2,000 places of the deformed surface. Angles to the closed form’s normals in degrees (mean, and what one place in a hundred exceeds), and the root mean square error of diffuse light. “Jacobian” is the program as it is: at rest the gradient is by Sobel’s operator over 26 places around. “Two reaches” is what it takes while something moves, and took for all pictures before: it rounds curved surfaces. “Sobel at rest” takes eight places half a voxel off: as exact as Sobel on the fly, for a fraction of the look-ups. The dot product (slope along the light alone) has no normal; it takes every gradient for as long as at rest.");
+    page.text("An ellipsoid of known surface, scanned at 96³ with an edge as soft as a CT’s, deformed, and its normals found by each method at 2,000 places of the deformed surface. Angles to the closed form’s normals in degrees (mean, and what one place in a hundred exceeds), and the root mean square error of diffuse light. “Jacobian” is the program as it is: at rest the gradient is by Sobel’s operator over 26 places around. “Two reaches” is what it took before: it rounds curved surfaces. “Sobel at rest” takes eight places half a voxel off: as exact as Sobel on the fly, for a fraction of the look-ups. The dot product (slope along the light alone) has no normal; it takes every gradient for as long as at rest.");
     let n = 96;
     let scan = Scan::new(EGG, n);
     let mut rows = Vec::new();

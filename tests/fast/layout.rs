@@ -51,7 +51,7 @@ fn rust_layouts() -> BTreeMap<String, Layout> {
         }
         MeshSegment { color, inside, kind, thickness, gloss, opacity, first_layer, layer_count }
         MeshLayer { color, depth, grain }
-        MeshLook { segments, layers, has_shells, has_filled }
+        MeshLook { segments, layers, has_filled }
         SceneObject { object_from_subject, color, inside, opacity, gloss, nodes_at, triangles_at, node_count, textures_at }
         SceneObjects { items, count }
         Look {
