@@ -4,6 +4,7 @@
 use egui::{Pos2, Rect, Shape, Slider, Stroke, Ui, UiBuilder, pos2, vec2};
 
 use super::projection::Projection;
+use super::view_bar;
 use crate::app::kit::float::float_frame;
 use crate::app::kit::theme::{self, Palette, over_picture as ink};
 use crate::app::kit::widget::Named as _;
@@ -15,22 +16,32 @@ const WIDTH: f32 = 44.0;
 /// Height of a slider with its frame, points. Where there is no room for the least there are none: the bar over the
 /// picture has buttons.
 const HEIGHTS: [f32; 2] = [84.0, 190.0];
-/// Points between the two, and from both to what lies beside them.
-const GAP: f32 = 8.0;
+/// Points between the two, where the letter of the patient's side stands, and from both to texts beside them.
+const GAP: f32 = 26.0;
+const BESIDE: f32 = 8.0;
 /// Points at the head of a slider for its mark.
 const HEAD: f32 = 24.0;
 
-/// Height of each of the two in what is free of the picture, if they are shown.
-fn height(area: Rect, session: &Session) -> Option<f32> {
+/// The frames of the two in what is free of the picture, above and below the middle of its edge, if they are shown.
+fn frames(free: Rect, session: &Session) -> Option<[Rect; 2]> {
     let [least, most] = HEIGHTS;
-    let height = (0.5 * (area.height() - GAP)).min(most);
-    (theme::is_touch() && session.has_hand() && height >= least).then_some(height)
+    let area = view_bar::beside(free);
+    let middle = free.center().y;
+    let room = (middle - area.top()).min(area.bottom() - middle) - 0.5 * GAP;
+    let height = room.min(most);
+    let tops = [middle - 0.5 * GAP - height, middle + 0.5 * GAP];
+    let frames = tops.map(|top| {
+        let corner = pos2(area.left(), top);
+        Rect::from_min_size(corner, vec2(WIDTH, height))
+    });
+    (theme::is_touch() && session.has_hand() && height >= least).then_some(frames)
 }
 
-/// What they leave of an area for texts over the picture.
-pub(crate) fn beside(area: Rect, session: &Session) -> Rect {
-    match height(area, session) {
-        Some(_) => area.with_min_x(area.left() + WIDTH + GAP),
+/// The part of what is free of the picture that texts over it may fill: beside the sliders, too.
+pub(crate) fn beside(free: Rect, session: &Session) -> Rect {
+    let area = view_bar::beside(free);
+    match frames(free, session) {
+        Some([frame, _]) => area.with_min_x(frame.right() + BESIDE),
         None => area,
     }
 }
@@ -39,24 +50,19 @@ pub(crate) fn beside(area: Rect, session: &Session) -> Rect {
 /// picture show how large the tool is, and its coating.
 pub(crate) fn ui(
     ui: &mut Ui,
-    area: Rect,
+    free: Rect,
     view: &Projection,
     session: &Session,
     commands: &mut Vec<Command>,
 ) {
-    let Some(height) = height(area, session) else {
+    let Some([size_frame, coat_frame]) = frames(free, session) else {
         return;
     };
     let hand = session.hand();
     let [sizes, coats] = HeldTool::RANGES;
-    let top = area.center().y - height - 0.5 * GAP;
-    let frame = |i: f32| {
-        let corner = pos2(area.left(), top + i * (height + GAP));
-        Rect::from_min_size(corner, vec2(WIDTH, height))
-    };
     let is_moved = [
-        slider_ui(ui, frame(0.0), w().size_of_tool, hand.size, sizes),
-        slider_ui(ui, frame(1.0), w().coat_of_tool, hand.coat, coats),
+        slider_ui(ui, size_frame, w().size_of_tool, hand.size, sizes),
+        slider_ui(ui, coat_frame, w().coat_of_tool, hand.coat, coats),
     ];
     let [size, coat] = is_moved.map(|moved| moved.value);
     let mut new = hand.clone();
@@ -66,7 +72,7 @@ pub(crate) fn ui(
     if let Some(coat) = coat {
         new = new.with_coat(coat);
     }
-    marks_ui(ui, frame(0.0), frame(1.0));
+    marks_ui(ui, size_frame, coat_frame);
     if is_moved.iter().any(|moved| moved.is_held) {
         rings_ui(ui, view, session.camera.target, &new);
     }

@@ -209,8 +209,7 @@ impl Viewport {
         // Left of the buttons, where these have a column of their own.
         let foot = free.right_bottom() - vec2(view_bar::column_width(rect) + 14.0, 14.0);
         orientation::bar_ui(&painter, session, rect, letters, foot);
-        let area = view_bar::beside(free);
-        let texts = edge_sliders::beside(area, session);
+        let texts = edge_sliders::beside(free, session);
         self.captions.ui(ui, &view, texts, session, commands);
 
         match session.tool() {
@@ -281,7 +280,7 @@ impl Viewport {
                 self.gizmo.release();
             }
         }
-        edge_sliders::ui(ui, area, &view, session, commands);
+        edge_sliders::ui(ui, free, &view, session, commands);
         view_bar::corner_ui(ui, rect, &view, session, commands);
         if response.has_focus() {
             widget::focus_ring(ui, &response, rect.shrink(1.0));

@@ -98,9 +98,9 @@ pub enum ClayCommand {
     Switch(usize),
     /// Changes the stroke of this index.
     Change {
-        /// Its index.
+        /// In the order of the document's strokes.
         stroke: usize,
-        /// What is changed.
+        /// The tool's form or size, or the mirror images.
         change: StrokeChange,
         /// It is a part of a drag, which is one step of undo as a whole.
         is_drag: bool,

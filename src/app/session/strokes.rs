@@ -46,8 +46,8 @@ impl Session {
         Some(Edit::All { name, edits })
     }
 
-    /// Changes a tool of a stroke or its mirror images, as a part of a drag or as one step of undo. Of a tool that other
-    /// ways use, too, there is another one afterwards.
+    /// Changes a tool of a stroke or its mirror images, as a part of a drag or as one step of undo. Of a tool that
+    /// other ways use, too, there is another one afterwards.
     pub(super) fn change_stroke(&mut self, index: usize, change: StrokeChange, is_drag: bool) {
         let Some(clay) = self.clay().cloned() else {
             return;
@@ -196,7 +196,7 @@ mod tests {
     }
     /// Two strokes by the first of two tools, one by both.
     const SHARED: &str = r#"{ "fabrica": 1, "subject": { "clay": { "tools": [{ "radius": 0.15 }, { "radius": 0.2 }],
-        "strokes": [{ "path": [0, 0, 400, 0, 0, 100] }, { "path": [0, 400, 0, 0, 100, 0], "mirror": ["x"] },
+        "strokes": [{ "path": [0, 0, 400, 0, 0, 100] }, { "path": [0, 400, 0, 0, 100, 0], "mirror": "x" },
             { "path": [0, 0, -400, 0, 0, -100], "with": [{ "tool": 1, "path": [400, 0, 0, 100, 0, 0] }] }] } } }"#;
 
     fn change(session: &mut Session, stroke: usize, change: StrokeChange, is_drag: bool) {
