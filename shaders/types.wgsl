@@ -265,6 +265,7 @@ struct Style {
     hatch_color: vec4f,
     stipple_color: vec4f,
     /// xyz: the long axis of each segment, rest space, unit; of 0 that of the whole subject.
+    /// w: the pattern of its strokes, a whole number: three times the kind, plus how often they turn by 60 degrees.
     axes: array<vec4f, 256>,
     /// Width of outlines, pixels; 0 for none.
     outline_px: f32,

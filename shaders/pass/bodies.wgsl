@@ -38,16 +38,25 @@ fn share_bodies(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
     }
 }
 
-/// Shares of one voxel: of the labels around it, weighted 1 2 1 along each axis.
+/// The least share of a voxel's own label, as in pass/shares.wgsl: what is one voxel thin is not lost.
+const HELD: f32 = 0.65;
+
+/// Shares of one voxel: of the labels around it, weighted 1 2 1 along each axis. Its own label has HELD at least, and
+/// the others have the rest of 1 in proportion.
 fn share_around(middle: vec3i, last: vec3i) -> vec4f {
-    var sum = vec4f(0.0);
+    var others = vec4f(0.0);
+    var own_share = 0.0;
+    let own = textureLoad(labels, clamp(middle, vec3i(0), last), 0).x;
     for (var i = 0; i < 27; i++) {
         let offset = vec3i(i % 3, (i / 3) % 3, i / 9) - 1;
         let label = textureLoad(labels, clamp(middle + offset, vec3i(0), last), 0).x;
         let weight = 1.0 / f32(8u << u32(dot(abs(offset), vec3i(1))));
-        sum += share_of(label & 255u) * weight;
+        own_share += select(0.0, weight, label == own);
+        others += share_of(label & 255u) * select(weight, 0.0, label == own);
     }
-    return sum;
+    let held = max(own_share, HELD);
+    let part = select(1.0, (1.0 - held) / max(1.0 - own_share, 1e-6), own_share < HELD);
+    return share_of(own & 255u) * held + others * part;
 }
 
 /// Shares of a place that is all of one label.

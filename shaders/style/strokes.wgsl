@@ -12,6 +12,8 @@ const FAMILIES: u32 = 9u;
 const LEAST_SPACING: f32 = 2.6;
 /// Part of the surface that strokes of one direction cover at most; beyond it others cross them.
 const MOST_ALONE: f32 = 0.42;
+/// The same of short dashes, which grow together where they cover more.
+const MOST_DASHED: f32 = 0.28;
 
 fn family_normal(index: u32) -> vec3f {
     var all = array<vec3f, FAMILIES>(
@@ -105,24 +107,35 @@ fn strokes_of(around: Patch, families: Families, duty: f32) -> f32 {
     return 1.0 - (1.0 - first) * (1.0 - second);
 }
 
+/// The pattern of a segment's strokes: three times their kind, plus how often they are turned by 60 degrees. Those of
+/// objects and of meshes beside a volume go by their number.
+fn pattern_of(segment: u32) -> u32 {
+    let usual = segment % 3u + 3u * ((segment / 3u) % 3u);
+    return select(u32(style.axes[min(segment, 255u)].w), usual, segment > 255u);
+}
+
 /// How much of a pixel hatching covers where it is to make this part dark. Segments differ in the direction of their
-/// strokes, and in their kind: lines, broken lines, crossed lines.
+/// strokes, and in their kind: lines, broken lines, crossed lines, rows of short dashes.
 fn hatching_at(pixel: vec2i, here: Shown, dark: f32) -> f32 {
-    let around = patch_at(pixel, here, f32(here.segment % 3u) * 1.0471976);
+    let pattern = pattern_of(here.segment);
+    let around = patch_at(pixel, here, f32(pattern % 3u) * 1.0471976);
     if !around.is_known {
         return dark;
     }
-    let kind = (here.segment / 3u) % 3u;
-    let alone = select(min(dark, MOST_ALONE), 1.0 - sqrt(max(1.0 - dark, 0.0)), kind == 2u);
+    let kind = pattern / 3u;
+    let most = select(MOST_ALONE, MOST_DASHED, kind == 3u);
+    let alone = select(min(dark, most), 1.0 - sqrt(max(1.0 - dark, 0.0)), kind == 2u);
     let crossed = 1.0 - (1.0 - dark) / (1.0 - alone);
     let ours = families_for(around.normal, around.across, no_families());
     var strokes = 0.0;
-    if kind == 1u {
-        // Broken: gaps of a quarter, made up for by the width.
+    if kind == 1u || kind == 3u {
+        // Broken: gaps of a quarter, made up for by the width. Dashes: gaps of a half, twice as near.
+        let on_part = select(0.75, 0.5, kind == 3u);
+        let spacing_px = select(3.0, 1.5, kind == 3u) * style.hatch_spacing_px;
         let gaps = families_for(around.normal, around.along, ours).first;
         let gap_slope = length(vec2f(dot(around.right, gaps), dot(around.down, gaps)));
-        let on = stripes(dot(around.rest, gaps), gap_slope, 0.75, 3.0 * style.hatch_spacing_px, 0.0);
-        strokes = strokes_of(around, ours, min(alone / 0.75, 1.0)) * on;
+        let on = stripes(dot(around.rest, gaps), gap_slope, on_part, spacing_px, 0.0);
+        strokes = strokes_of(around, ours, min(alone / on_part, 1.0)) * on;
     } else {
         strokes = strokes_of(around, ours, alone);
     }

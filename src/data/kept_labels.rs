@@ -321,4 +321,59 @@ mod tests {
         );
         assert!(!kept.piece_of(&larger, IVec3::new(3, 3, 11), 0, |_| false).1);
     }
+
+    /// Shares of four sets that exclude each other and leave nothing out add up to 1 at each voxel, but for the steps
+    /// of 1 / 255 that each is rounded to; shares of sets that overlap do not.
+    #[test]
+    fn shares_of_sets_that_exclude_each_other_add_up_to_1() {
+        let n = 14;
+        // Four cells about four places, their borders disturbed voxel by voxel.
+        let places = [
+            DVec3::new(3.0, 4.0, 3.0),
+            DVec3::new(10.0, 3.0, 5.0),
+            DVec3::new(5.0, 11.0, 7.0),
+            DVec3::new(9.0, 8.0, 12.0),
+        ];
+        let label = |at: UVec3| {
+            let noise = (at.x * 7 + at.y * 13 + at.z * 29) * 389 % 1_000;
+            let off = f64::from(noise) / 500.0 * DVec3::new(1.0, -1.0, 0.5);
+            let from = |k: &usize| places[*k].distance(at.as_dvec3() + off);
+            let nearest = (0..4).min_by(|a, b| from(a).total_cmp(&from(b)));
+            nearest.unwrap_or(0) as u8
+        };
+        let labels = Segmentation::cube(n, 1.0, label, &[]);
+        let apart = KeptLabels::new(|label| 1 << label.min(3));
+        // The second set has the first one's label as well.
+        let overlapping =
+            KeptLabels::new(|label| [0b0011, 0b0010, 0b0100, 0b1000][usize::from(label.min(3))]);
+        let (mut mixed, mut larger) = (0, 0);
+        for i in 0..n.pow(3) {
+            let voxel = UVec3::new(i % n, i / n % n, i / (n * n));
+            let around = Around::of(&labels, voxel.as_dvec3());
+            // The voxel itself is the second of the four along each axis.
+            let at = IVec3::ONE;
+            let sum = |sets: &KeptLabels| {
+                let shares = (0..4).map(|set| {
+                    let members = around.labels.map(|label| sets.has(label, set));
+                    sets.share(&around, &members, at, set)
+                });
+                let shares: Vec<f64> = shares.collect();
+                (shares.iter().sum::<f64>(), shares)
+            };
+            let (whole, shares) = sum(&apart);
+            assert!(
+                (whole - 1.0).abs() <= 2.0 / 255.0 + 1e-9,
+                "{voxel}: {shares:?}"
+            );
+            let own = usize::from(label(voxel));
+            assert!(
+                shares[own] >= HELD - 0.5 / 255.0,
+                "{voxel}: {shares:?} of label {own}"
+            );
+            mixed += usize::from(shares.iter().filter(|share| **share > 0.0).count() > 2);
+            larger += usize::from(sum(&overlapping).0 > 1.1);
+        }
+        assert!(mixed > 50, "{mixed} voxels where three labels meet");
+        assert!(larger > 200, "a set that overlaps is found out: {larger}");
+    }
 }

@@ -25,6 +25,7 @@ mod mask;
 mod material;
 pub(crate) mod mesh;
 mod parts;
+mod patterns;
 mod pending;
 mod plate;
 mod reduce;
@@ -54,6 +55,7 @@ pub use mesh::{
     pieces, volume, winding_number,
 };
 pub use parts::{SubjectPart, SubjectSink};
+pub use patterns::stroke_patterns;
 pub use pending::{Pending, poll_once};
 pub use plate::{Plate, PlateOrigin, PlateShape, PlateWord};
 pub use reduce::{Reducer, Reduction, VolumeLimits, dims_that_fit, resized};

@@ -16,6 +16,7 @@ mod icons;
 #[path = "../../src/bin/xtask/imports.rs"]
 mod imports;
 mod inside;
+mod islands;
 mod layers;
 mod layout;
 mod links;
@@ -34,6 +35,8 @@ mod palette;
 #[path = "../support/pictures.rs"]
 mod picture_files;
 mod pictures;
+#[path = "../../src/bin/xtask/pieces.rs"]
+mod pieces;
 mod prose;
 mod recipes;
 #[path = "../support/scans.rs"]

@@ -73,9 +73,9 @@ fn the_rim_of_a_flap_has_no_gaps() {
     assert!(gaps <= 6, "{gaps} gaps along rims");
 }
 
-/// A revision of a built-in subject as it is normally shown.
-fn revision(name: &str, revision: u32) -> Volume {
-    let generator = Generator::of_revision(name, revision, FINE_RESOLUTION).expect("a subject");
+/// A revision of a built-in subject, so many voxels along its longest side.
+pub(crate) fn revision(name: &str, revision: u32, resolution: u32) -> Volume {
+    let generator = Generator::of_revision(name, revision, resolution).expect("a subject");
     let mut builder = VolumeBuilder::new();
     let mut take = |part| builder.take(part).expect("it is taken");
     take(SubjectPart::header(generator.header()));
@@ -131,7 +131,11 @@ fn smooth_skin_shows_no_layers_of_voxels() {
             r#"{{ "fabrica": 1, "subject": {{ "builtin": "torso", "revision": {number} }},
             "camera": {{ "distance": 0.6, "target": [-0.12, 0.1, 0.05] }} }}"#
         );
-        let studio = studio_of(software(), &revision("torso", number), true);
+        let studio = studio_of(
+            software(),
+            &revision("torso", number, FINE_RESOLUTION),
+            true,
+        );
         let (scene, size) = (illustration(&flank), [240, 180]);
         let image = pollster::block_on(studio.render_image(&scene, size, 4));
         variation(&image.expect("a picture"), [145, 120])

@@ -338,3 +338,62 @@ fn picture_and_probe_have_one_border() {
         }
     }
 }
+
+/// Of sets that exclude each other and leave nothing out, each place has one: where two surfaces meet there is no gap
+/// and no overlap.
+#[test]
+fn sets_that_exclude_each_other_part_the_places() {
+    let lumps = |voxel: DVec3| {
+        let from = voxel - 23.0;
+        from.length() - 14.0 - 3.0 * (0.9 * from.x).sin() * (0.7 * from.y).cos()
+    };
+    let label = |voxel: UVec3| match (lumps(voxel.as_dvec3()) < 0.0, voxel.x + voxel.y < 46) {
+        (true, _) => 1,
+        (false, true) => 2,
+        (false, false) => 3,
+    };
+    let names = ["lumps", "left", "right"];
+    let studio = studio_of(gpu(), &labelled_block(SIDE, label, &names), false);
+    let [_, _, split] = templates();
+    let mut random = Random(0x0b01_171b);
+    // Within two voxels of the border of the lumps.
+    let mut points = Vec::new();
+    while points.len() < 4000 {
+        let voxel = DVec3::splat(23.0) + random.vector(-19.0, 19.0).as_dvec3();
+        if lumps(voxel).abs() < 2.0 {
+            points.push(rest_at(voxel, SIDE).as_vec3());
+        }
+    }
+    let kept = |keep: &[&str]| -> Vec<bool> {
+        let mut split = split.clone();
+        split.align = Align::Segment {
+            keep: keep.iter().map(|name| (*name).to_owned()).collect(),
+            thickness: 0.01,
+        };
+        let found = probe(&studio, std::slice::from_ref(&split), &points);
+        let stays = points.iter().zip(found);
+        stays
+            .map(|(point, sample)| sample.pos_in_rest == *point && sample.continuity >= 0.0)
+            .collect()
+    };
+    let count = |sets: &[Vec<bool>], wanted: fn(usize) -> bool| {
+        let of = |i: usize| sets.iter().filter(|set| set[i]).count();
+        (0..points.len()).filter(|i| wanted(of(*i))).count()
+    };
+    let halves = [kept(&["lumps"]), kept(&["left", "right"])];
+    // A share is a byte: in half a step of it about the border both or none may be.
+    let both = count(&halves, |n| n == 2);
+    let none = count(&halves, |n| n == 0);
+    println!("two sets: {both} places in both, {none} in none");
+    assert!(both + none <= points.len() / 200, "{both} and {none}");
+    let inside = halves[0].iter().filter(|is_in| **is_in).count();
+    assert!((1000..3000).contains(&inside), "{inside} within");
+    // Of three sets none needs to have half of a place, and no two have.
+    let thirds = names.map(|name| kept(&[name]));
+    let both = count(&thirds, |n| n > 1);
+    println!("three sets: {both} places in two");
+    assert!(both <= points.len() / 200, "{both}");
+    // Negative control.
+    let overlapping = [kept(&["lumps", "left"]), kept(&["left", "right"])];
+    assert!(count(&overlapping, |n| n == 2) > 500, "an overlap is seen");
+}

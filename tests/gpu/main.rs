@@ -23,6 +23,7 @@ mod meshes;
 mod objects;
 mod print;
 mod probes;
+mod riding;
 mod rigid;
 mod shells;
 mod slices;
@@ -30,6 +31,8 @@ mod splines;
 mod style;
 mod sweeps;
 mod textures;
+mod told_apart;
+mod tubes;
 
 #[path = "../reference/carved.rs"]
 mod carved;
@@ -46,6 +49,8 @@ mod long;
 mod memory;
 #[path = "../support/pictures.rs"]
 mod picture_files;
+#[path = "../../src/bin/xtask/pieces.rs"]
+mod pieces;
 #[path = "../reference/rbf.rs"]
 mod rbf;
 #[path = "../reference/mod.rs"]

@@ -12,7 +12,7 @@ use glam::{DVec3, UVec3, Vec2, Vec3};
 const SIDE: u32 = 64;
 const SIZE: [u32; 2] = [200, 200];
 
-fn illustration(rest: &str) -> Illustration {
+pub(crate) fn illustration(rest: &str) -> Illustration {
     let json = format!(r#"{{"fabrica":1,{rest}}}"#);
     Document::from_json(&json)
         .expect("a document")
@@ -20,13 +20,17 @@ fn illustration(rest: &str) -> Illustration {
         .clone()
 }
 
-fn drawn(studio: &Studio, shown: &Illustration, size: [u32; 2], samples: u32) -> Image {
+pub(crate) fn drawn(studio: &Studio, shown: &Illustration, size: [u32; 2], samples: u32) -> Image {
     pollster::block_on(studio.render_image(shown, size, samples)).expect("a picture")
 }
 
 /// A solid whose value falls from 200 to 0 across its surface, two voxels wide: `depth` is the depth of a point under
 /// it, voxels from the middle of the volume, above 0 inside.
-fn solid(depth: impl Fn(DVec3) -> f64, label: impl Fn(UVec3) -> u8, names: &[&str]) -> Volume {
+pub(crate) fn solid(
+    depth: impl Fn(DVec3) -> f64,
+    label: impl Fn(UVec3) -> u8,
+    names: &[&str],
+) -> Volume {
     let mut volume = labelled_block(SIDE, label, names);
     let middle = DVec3::splat(f64::from(SIDE - 1) / 2.0);
     let value = |i: u32| {
@@ -42,7 +46,7 @@ fn ball(at: DVec3) -> f64 {
     20.0 - at.length()
 }
 
-fn cuboid(at: DVec3) -> f64 {
+pub(crate) fn cuboid(at: DVec3) -> f64 {
     (DVec3::new(18.0, 14.0, 16.0) - at.abs()).min_element()
 }
 
@@ -52,9 +56,9 @@ fn torus(at: DVec3) -> f64 {
 }
 
 /// Opaque from half the value on, and white without a style.
-const LOOK: &str = r##""transfer":[{"value":99.9,"color":"#ffffff","opacity":0},{"value":100.1,"color":"#ffffff","opacity":1}],"background":"#ffffff""##;
+pub(crate) const LOOK: &str = r##""transfer":[{"value":99.9,"color":"#ffffff","opacity":0},{"value":100.1,"color":"#ffffff","opacity":1}],"background":"#ffffff""##;
 /// White, so that nothing but lines is seen.
-const WHITE: &str = r##""tone":{"warm":"#ffffff","cool":"#ffffff"}"##;
+pub(crate) const WHITE: &str = r##""tone":{"warm":"#ffffff","cool":"#ffffff"}"##;
 const CAMERA: &str = r#""camera":{"rotate":[0.2,0.1,0.3,0.927],"distance":3.2}"#;
 
 /// True where a black line covers half of a pixel of white, in linear light.
@@ -168,7 +172,7 @@ fn segments_have_a_line_between_them() {
 }
 
 /// The mean of the red channel in squares of 32 × 32 pixels that the object fills, with their places.
-fn squares(image: &Image, covered: &[bool]) -> Vec<((u32, u32), f64)> {
+pub(crate) fn squares(image: &Image, covered: &[bool]) -> Vec<((u32, u32), f64)> {
     let mut found = Vec::new();
     for y in (0..image.size[1] - 31).step_by(16) {
         for x in (0..image.size[0] - 31).step_by(16) {

@@ -8,9 +8,11 @@ mod examples;
 mod gallery;
 mod house;
 mod imports;
+mod islands;
 mod lint;
 mod page;
 mod palette;
+mod pieces;
 mod run;
 mod setup;
 mod sheet;
@@ -35,6 +37,8 @@ cargo xtask COMMAND
                     target/gallery/index.html (also --size PIXELS, --program FILE, --page URL)
   examples          write the list of examples out of web/gallery, and draw their pictures anew
   icons             draw the icons of the catalogue anew, into the picture that ships with the program
+  islands           draw every document of web/gallery at each step and every built-in subject, and name what floats
+                    beside the object in fewer than 40 pixels (--only NAME, --program FILE)
   evaluate          measure maps, normals, opacity and cost against closed forms (some minutes, test profile):
                     tables and plots in target/evaluation/index.html
   shaders [FOLDER]  write the assembled shader programs into a folder (default target/shaders)
@@ -59,6 +63,7 @@ fn main() -> ExitCode {
         Some("gallery") => gallery::gallery(rest),
         Some("icons") => sheet::icons(rest),
         Some("examples") => sheet::examples(rest),
+        Some("islands") => islands::islands(rest),
         Some("evaluate") => evaluate::evaluate(),
         Some("shaders") => check::shaders(rest),
         Some("setup") => setup::for_page().and_then(|()| setup::for_tests()),

@@ -66,7 +66,8 @@ impl StylePass {
             };
             render_pipeline(gpu, &parts)
         });
-        let seen = (&styled.subject.axes, styled.subject.frame.detail);
+        let subject = styled.subject;
+        let seen = (&subject.axes, &subject.patterns, subject.frame.detail);
         let uniform = style_uniform(styled.style, styled.size_px, seen, styled.first_row);
         let buffer = uniform_buffer(gpu, "style", &uniform);
         let [color, place, surface] = styled

@@ -817,6 +817,7 @@ pub struct Style {
     /// Colour of dots.
     pub stipple_color: [f32; 4],
     /// xyz: the long axis of each segment, rest space, unit; of 0 that of the whole subject.
+    /// w: the pattern of its strokes, a whole number: three times the kind, plus how often they turn by 60 degrees.
     pub axes: [[f32; 4]; 256],
     /// Width of outlines, pixels; 0 for none.
     pub outline_px: f32,

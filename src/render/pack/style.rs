@@ -9,11 +9,12 @@ use glam::Vec3;
 const CREASE_DEG: [f32; 2] = [110.0, 20.0];
 
 /// The uniform of a style for a picture of this size, pixels, of a subject whose segments have these long axes and
-/// whose finest detail has this length, subject units. The traced pixels begin with row `first_row` of the picture.
+/// patterns of strokes, and whose finest detail has this length, subject units. The traced pixels begin with row
+/// `first_row` of the picture.
 pub(crate) fn style_uniform(
     style: &Style,
     size_px: [f32; 2],
-    (axes, detail): (&[Vec3; 256], f32),
+    (axes, patterns, detail): (&[Vec3; 256], &[u8; 256], f32),
     first_row: u32,
 ) -> gpu_types::Style {
     let px = size_px[0].min(size_px[1]) / 1000.0;
@@ -26,7 +27,9 @@ pub(crate) fn style_uniform(
         cool: color(style.tone.cool_srgb),
         hatch_color: color(style.hatch.color_srgb),
         stipple_color: color(style.stipple.color_srgb),
-        axes: axes.map(|axis| axis.extend(0.0).to_array()),
+        axes: std::array::from_fn(|label| {
+            axes[label].extend(f32::from(patterns[label])).to_array()
+        }),
         outline_px: style.outline.width * px,
         // No two normals differ by more than the angle of the cosine -1.
         crease_cosine: if creases > 0.0 {

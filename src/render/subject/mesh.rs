@@ -6,7 +6,7 @@ use super::textures::{
     Bound, MESH_ROW, MeshTextures, SubjectTextures, VoxelFrame, label_texture, mesh_texture,
     next_stamp,
 };
-use crate::data::{Surface, SurfaceField, long_axes};
+use crate::data::{Surface, SurfaceField, long_axes, stroke_patterns};
 use crate::math::Aabb;
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -244,6 +244,7 @@ impl MeshTextures {
             label_voxels: Some(VoxelFrame::new(own.dims, field.rest_from_inner_voxel())),
             foot_axis: 2,
             axes: long_axes(segmentation, &field.rest_from_inner_voxel()),
+            patterns: stroke_patterns(segmentation),
             mesh_segments: surface.segments.clone(),
             segments,
         }

@@ -61,6 +61,8 @@ pub(crate) struct SubjectTextures {
     pub foot_axis: u32,
     /// The long axes of its segments, rest space: see [`crate::data::long_axes`].
     pub axes: [Vec3; 256],
+    /// The patterns of their strokes: see [`crate::data::stroke_patterns`].
+    pub patterns: [u8; 256],
     /// Named segments of the subject.
     pub segments: Vec<Segment>,
     /// What the segments of meshes are; none of a volume.

@@ -6,7 +6,8 @@ use super::textures::{
     Bound, MeshTextures, SubjectTextures, VoxelFrame, label_texture, next_stamp,
 };
 use crate::data::{
-    FIRST_MESH_LABEL, Segmentation, Volume, called_as_in, long_axes, with_mesh_segments,
+    FIRST_MESH_LABEL, Segmentation, Volume, called_as_in, long_axes, stroke_patterns,
+    with_mesh_segments,
 };
 use crate::render::device::error::RenderError;
 use crate::render::device::gpu::Gpu;
@@ -134,6 +135,7 @@ pub(crate) fn assemble(
         axes: labels.map_or([Vec3::Z; 256], |labels| {
             long_axes(labels, &(subject_from_world * labels.grid.world_from_voxel))
         }),
+        patterns: labels.map_or([0; 256], stroke_patterns),
         mesh_segments,
         segments,
         bind_group: bound.bind_group,
