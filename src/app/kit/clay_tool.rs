@@ -61,8 +61,7 @@ pub(crate) fn own_forms<'a>(shapes: impl Iterator<Item = &'a ToolShape>) -> Vec<
     own
 }
 
-/// The entries of a list of forms: the plain ones, then some of a document's own. Returns the hand with the one that was
-/// chosen.
+/// The entries of a list of forms: the plain ones, then some of a document's own. Gives the hand with the one chosen.
 pub(crate) fn forms_ui(ui: &mut Ui, hand: &HeldTool, own: &[&ToolShape]) -> Option<HeldTool> {
     let mut chosen = None;
     let plain = (0..HeldTool::FORMS.len()).map(|form| (form, None));

@@ -98,9 +98,9 @@ pub enum ClayCommand {
     Switch(usize),
     /// Changes the stroke of this index.
     Change {
-        /// In the order of the document's strokes.
+        /// One of the clay's strokes, counted from 0.
         stroke: usize,
-        /// The tool's form or size, or the mirror images.
+        /// The tool of one of its ways, or its mirror images.
         change: StrokeChange,
         /// It is a part of a drag, which is one step of undo as a whole.
         is_drag: bool,

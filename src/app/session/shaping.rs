@@ -264,8 +264,8 @@ impl Session {
     }
 }
 
-/// The places of the tools that ways of strokes use, of those ways that are asked about by the index of their stroke
-/// and their own.
+/// The places of the tools that ways of strokes use: of those ways alone that are asked about, by the index of their
+/// stroke and their own.
 pub(super) fn used_tools(clay: &Clay, is_asked: impl Fn(usize, usize) -> bool) -> Vec<usize> {
     let strokes = clay.strokes.iter().enumerate();
     let ways = strokes.flat_map(|(i, stroke)| {

@@ -46,8 +46,8 @@ impl Session {
         Some(Edit::All { name, edits })
     }
 
-    /// Changes a tool of a stroke or its mirror images, as a part of a drag or as one step of undo. Of a tool that
-    /// other ways use, too, there is another one afterwards.
+    /// Changes a tool of a stroke or its mirror images, as a part of a drag or as one step of undo. Other ways that use
+    /// the same tool keep it.
     pub(super) fn change_stroke(&mut self, index: usize, change: StrokeChange, is_drag: bool) {
         let Some(clay) = self.clay().cloned() else {
             return;
