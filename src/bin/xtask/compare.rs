@@ -7,13 +7,11 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
 
 use fabrica::document::Document;
 
-use crate::run::{Outcome, program, report, root};
+use crate::run::{Outcome, fed, program, report, root};
 
 /// Pictures are drawn this large: each takes a second or two on a software GPU, and there are some hundred of them.
 const SIZE: &str = "120x90";
@@ -210,19 +208,7 @@ fn answer(fabrica: &Path, question: &Question) -> Result<Result<Vec<u8>, String>
     if question.is_picture {
         command.arg(&picture);
     }
-    let started = command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn();
-    let mut child = started.map_err(|error| format!("{}: {error}", fabrica.display()))?;
-    if let Some(mut input) = child.stdin.take() {
-        // A program that asks for nothing may have ended already.
-        let _taken = input.write_all(question.input.as_bytes());
-    }
-    let done = child
-        .wait_with_output()
-        .map_err(|error| format!("{}: {error}", fabrica.display()))?;
+    let done = fed(&mut command, &question.input)?;
     if !done.status.success() {
         return Ok(Err(String::from_utf8_lossy(&done.stderr).trim().to_owned()));
     }

@@ -7,6 +7,7 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use fabrica::document::{Document, newest_revision};
 use fabrica::link;
@@ -14,7 +15,7 @@ use fabrica::subjects::{self, Generator};
 use serde_json::{Value, json};
 
 use crate::examples::documents;
-use crate::run::{Outcome, cargo, program, report, root, run};
+use crate::run::{Outcome, cargo, fed, program, report, root, run};
 
 /// Where `cargo xtask serve` shows the page.
 const PAGE: &str = "http://127.0.0.1:8080/";
@@ -343,20 +344,16 @@ fn made(name: &str, templates: &Value, camera: &Value) -> Result<Document, Strin
     Document::from_json(&tree.to_string()).map_err(|error| error.to_string())
 }
 
-/// Draws a document at a step into a PNG of `width` and `height` pixels.
-pub(crate) fn draw(
+/// The command that draws the document of a file at a step, without the file that it is to write.
+pub(crate) fn render(
     fabrica: &Path,
-    document: &Document,
+    document: &Path,
     step: usize,
-    to: &Path,
     [width, height]: [u32; 2],
     samples: u32,
-) -> Outcome {
-    let from = to.with_extension("json");
-    fs::write(&from, document.to_json()).map_err(|error| format!("{}: {error}", from.display()))?;
+) -> Command {
     let mut command = program(fabrica);
-    command.arg("render").arg(&from).arg("-o").arg(to);
-    command.args([
+    command.arg("render").arg(document).args([
         "--size",
         &format!("{width}x{height}"),
         "--step",
@@ -364,15 +361,33 @@ pub(crate) fn draw(
         "--samples",
         &samples.to_string(),
     ]);
-    let done = command
-        .output()
-        .map_err(|error| format!("{} could not be started: {error}", fabrica.display()))?;
-    let _ = fs::remove_file(&from);
-    let told = String::from_utf8_lossy(&done.stderr);
+    command
+}
+
+/// Lets a command of [`render`] write its picture.
+pub(crate) fn written(command: &mut Command, to: &Path) -> Outcome {
+    let done = fed(command.arg("-o").arg(to), "")?;
     if !done.status.success() {
+        let told = String::from_utf8_lossy(&done.stderr);
         return Err(format!("{}: {}", to.display(), told.trim()));
     }
     Ok(())
+}
+
+/// Draws a document at a step into a PNG of so many pixels.
+pub(crate) fn draw(
+    fabrica: &Path,
+    document: &Document,
+    step: usize,
+    to: &Path,
+    size_px: [u32; 2],
+    samples: u32,
+) -> Outcome {
+    let from = to.with_extension("json");
+    fs::write(&from, document.to_json()).map_err(|error| format!("{}: {error}", from.display()))?;
+    let drawn = written(&mut render(fabrica, &from, step, size_px, samples), to);
+    let _ = fs::remove_file(&from);
+    drawn
 }
 
 fn section(page: &mut String, name: &str, title: &str, caption: &str) {

@@ -7,9 +7,7 @@
 //! of their segments.
 
 use std::fs;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
 
 use fabrica::document::{Camera, Document, Illustration, newest_revision};
 use fabrica::subjects;
@@ -18,12 +16,14 @@ use serde_json::json;
 
 use crate::compare::values;
 use crate::examples::documents;
-use crate::gallery::native;
+use crate::gallery::{native, render, written};
 use crate::pieces::{self, pieces};
-use crate::run::{Outcome, program, report, root};
+use crate::run::{Outcome, fed, program, report, root};
 
 /// Width and height of the pictures, pixels.
 const SIZE_PX: [u32; 2] = [800, 600];
+/// Samples of a pixel.
+const SAMPLES: u32 = 4;
 /// A piece of so many pixels is no crumb.
 const LEAST_PX: usize = 40;
 /// Islands of a picture that are named one by one.
@@ -99,28 +99,11 @@ fn crumbs(
     let picture = folder.join(format!("{name}-{step}.png"));
     let text = folder.join(format!("{name}.json"));
     fs::write(&text, document.to_json()).map_err(|error| located(&text, error))?;
-    let [width, height] = SIZE_PX;
-    let mut command = program(fabrica);
-    command.arg("render").arg(&text).arg("-o").arg(&picture);
-    command.args([
-        "--size",
-        &format!("{width}x{height}"),
-        "--step",
-        &step.to_string(),
-        "--samples",
-        "4",
-        "--transparent",
-    ]);
-    let done = command
-        .output()
-        .map_err(|error| format!("{} could not be started: {error}", fabrica.display()))?;
-    if !done.status.success() {
-        let told = String::from_utf8_lossy(&done.stderr);
-        return Err(format!("{}: {}", picture.display(), told.trim()));
-    }
+    let mut command = render(fabrica, &text, step, SIZE_PX, SAMPLES);
+    written(command.arg("--transparent"), &picture)?;
     let bytes = fs::read(&picture).map_err(|error| located(&picture, error))?;
     let (_, rgba) = values(&bytes)?;
-    let pieces = pieces(width, &rgba);
+    let pieces = pieces(SIZE_PX[0], &rgba);
     let count = pieces.len();
     let small = pieces::islands(pieces, LEAST_PX);
     let state = document.at_step(step).map_err(|error| error.to_string())?;
@@ -173,19 +156,7 @@ fn segments(
     let mut command = program(fabrica);
     command.arg("probe").arg(document).arg("--rays");
     command.args(["--step", &step.to_string()]);
-    let started = command
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn();
-    let mut child = started.map_err(|error| format!("{}: {error}", fabrica.display()))?;
-    if let Some(mut input) = child.stdin.take() {
-        // A program that asks for nothing may have ended already.
-        let _taken = input.write_all(lines.as_bytes());
-    }
-    let done = child
-        .wait_with_output()
-        .map_err(|error| format!("{}: {error}", fabrica.display()))?;
+    let done = fed(&mut command, &lines)?;
     if !done.status.success() {
         return Err(String::from_utf8_lossy(&done.stderr).trim().to_owned());
     }

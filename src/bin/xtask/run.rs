@@ -1,8 +1,9 @@
 //! Running other programs: each step prints what it does and how long it took.
 
 use std::ffi::OsStr;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus, Output, Stdio};
 use std::time::Instant;
 
 /// Why a command stopped: one message, with what to do about it.
@@ -23,6 +24,19 @@ pub(crate) fn program(name: impl AsRef<OsStr>) -> Command {
     let mut command = Command::new(name);
     command.current_dir(root());
     command
+}
+
+/// Runs a program that is given this text to read, and returns how it ended and what it said.
+pub(crate) fn fed(command: &mut Command, text: &str) -> Result<Output, String> {
+    let name = command.get_program().to_owned();
+    let failed = |error: std::io::Error| format!("{}: {error}", Path::new(&name).display());
+    let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = piped.stderr(Stdio::piped()).spawn().map_err(failed)?;
+    if let Some(mut input) = child.stdin.take() {
+        // A program that asks for nothing may have ended already.
+        let _taken = input.write_all(text.as_bytes());
+    }
+    child.wait_with_output().map_err(failed)
 }
 
 /// The cargo that runs this.
