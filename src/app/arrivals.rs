@@ -108,10 +108,7 @@ impl App {
                 }
             }
             LoadEvent::Progress { fraction, what } => {
-                if let Some(load) = &mut self.session.load {
-                    load.fraction = fraction;
-                    load.what = what;
-                }
+                self.session.hear_progress(fraction, what);
             }
             // Of a scan nothing can be taken over.
             LoadEvent::Coarse if self.is_reference() => {}

@@ -5,9 +5,9 @@ use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, Vec2, vec2};
 use crate::app::canvas::foot::Foot;
 use crate::app::canvas::panes::{self, Places};
 use crate::app::canvas::provisional as provisional_line;
-use crate::app::canvas::{hint, title};
+use crate::app::canvas::{hint, title, view_bar};
 use crate::app::kit::icon::Icon;
-use crate::app::kit::theme::Palette;
+use crate::app::kit::theme::{self, Palette};
 use crate::app::kit::widget;
 use crate::app::panel::{catalogue, look, notice, strip, templates, text, tissue, topbar};
 use crate::app::picture::host::Picture;
@@ -76,6 +76,14 @@ impl App {
                             widget::segmented(ui, w.panel, &tabs, self.session.side_tab)
                         {
                             self.session.side_tab = tab;
+                            // Whoever comes with the mouse to a document without a title types one at once. Keys go
+                            // on through the panels, and fingers are not to meet a keyboard that they did not ask for.
+                            let is_by_mouse =
+                                !theme::is_touch() && ui.input(|i| i.pointer.any_released());
+                            let has_title = !self.session.illustration().title.is_empty();
+                            if tab == Tab::Text && is_by_mouse && !has_title {
+                                self.focus = Some(Focus::Title);
+                            }
                         }
                     });
                     ui.add_space(6.0);
@@ -192,7 +200,8 @@ impl App {
             foot.ui(ui, rect, session, commands);
             let hint = hint::ui(ui, rect, session, commands);
             let floor = foot.top().or(hint.map(|card| card.top()));
-            notice::ui(ui, rect, floor, session, commands);
+            let area = view_bar::for_messages(panes);
+            notice::ui(ui, area, floor, session, commands);
             if session.are_panels_hidden {
                 title::way_back_ui(ui, rect, commands);
             }

@@ -57,6 +57,56 @@ fn steps_show_a_clay_grow_and_captions_go_with_it() {
     assert_eq!(window.document().illustration().captions[0].at.z, 0.5);
 }
 
+/// A clay of many strokes, small ones around a ball.
+fn of_many_strokes(count: usize) -> String {
+    let strokes = (0..count).map(|i| {
+        let angle = i as f32;
+        let [x, y] = [angle.cos(), angle.sin()].map(|part| (500.0 * part) as i32);
+        serde_json::json!({ "path": [x, y, 0, 0, 0, 40] })
+    });
+    let strokes: Vec<_> = strokes.collect();
+    let clay = serde_json::json!({ "detail": 0.1, "strokes": strokes });
+    serde_json::json!({ "fabrica": 1, "subject": { "clay": clay } }).to_string()
+}
+
+/// What is opened is seen at once as it starts, and then as far as its strokes are done; nothing of that is written
+/// down.
+#[test]
+fn a_clay_that_is_opened_grows() {
+    let mut window = Window::open(DESK, &of_many_strokes(20));
+    let before = window.document().to_json_compact();
+    window.settle();
+    assert_eq!(window.strokes_asked(), [0, 8, 20]);
+    assert!(window.harness.state().is_at_rest());
+    assert_eq!(window.document().to_json_compact(), before);
+    // Taken back, it is not opened again.
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Remove(19)));
+    window.settle();
+    assert_eq!(window.strokes_asked(), [0, 8, 20, 19]);
+}
+
+/// Whoever stops it sees what is done, and is asked nothing; the document has all of its strokes.
+#[test]
+fn a_clay_that_grows_can_be_stopped() {
+    let mut window = Window::open(DESK, &of_many_strokes(0));
+    window.settle();
+    window.log.0.borrow_mut().is_slow = true;
+    let text = of_many_strokes(20);
+    let message = Message::OpenText { text };
+    window.log.0.borrow_mut().queue.push(message);
+    window.steps(4);
+    assert_eq!(window.strokes_asked(), [0, 8]);
+    window.click("Cancel loading");
+    window.steps(5);
+    assert_eq!(window.strokes_asked(), [0, 8], "no more is asked for");
+    assert_eq!(window.strokes().len(), 20);
+    window.log.0.borrow_mut().is_slow = false;
+    window.run_command(fabrica::app::Command::Clay(ClayCommand::Remove(19)));
+    window.settle();
+    assert_eq!(window.strokes_asked(), [0, 8, 19], "what changes is done");
+    assert!(window.harness.state().is_at_rest());
+}
+
 /// A caption that is set on pulled tissue is written down where the tissue was in the ball.
 #[test]
 fn a_caption_is_fastened_to_the_starting_shape() {

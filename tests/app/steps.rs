@@ -274,6 +274,49 @@ fn the_strip_scrolls_on_a_phone_and_makes_room_for_drawers() {
     window.harness.get_by_label("Title of the step");
 }
 
+/// On a phone the bar of a lesson lies under the picture, which stays as high as it is from step to step, and messages
+/// beside the buttons of the picture.
+#[test]
+fn on_a_phone_nothing_lies_over_the_object() {
+    let legend = "A long legend of several lines, such as a lesson has. ".repeat(4);
+    let with_legend = LESSON.replace(
+        r#""title": "Incision","#,
+        &format!(r#""title": "Incision", "caption": "{legend}","#),
+    );
+    let mut window = Window::open(PHONE, &with_legend);
+    window.settle();
+    let picture = |window: &Window| window.harness.get_by_role(Role::Image).rect();
+    let start = picture(&window);
+    assert!(start.height() > 300.0, "{start}");
+    for step in 1..=2 {
+        window.click("Next step");
+        window.settle();
+        window.look(&format!("phone_step_{step}"));
+        assert_eq!(picture(&window), start, "step {step}");
+        let bar = window.harness.get_by_label("Next step").rect();
+        assert!(start.bottom() <= bar.top(), "{start} {bar}");
+    }
+    let text = "{ cut off".to_owned();
+    window
+        .log
+        .0
+        .borrow_mut()
+        .queue
+        .push(Message::OpenText { text });
+    window.steps(3);
+    window.look("phone_message");
+    let message = window.harness.get_by_label("Dismiss").rect();
+    for name in ["Standard views", "Compare with the original"] {
+        let button = window.harness.get_by_label(name).rect();
+        assert!(
+            message.right() <= button.left(),
+            "{name}: {message} {button}"
+        );
+    }
+    let ball = window.harness.get_by_label("Back to the first view").rect();
+    assert!(message.bottom() <= ball.top(), "{message} {ball}");
+}
+
 /// What is told about a step has fields of its own, each change of which is undone by itself.
 #[test]
 fn a_step_is_named_timed_and_noted() {

@@ -4,13 +4,16 @@ use super::harness::{Session, Tab};
 use super::server::Server;
 use super::surfaces::{surface_of, surface_within};
 use super::*;
-use fabrica::data::{FieldSamples, Grid, Resources, Subject, Surface, Volume, VolumeBuilder};
+use fabrica::data::{
+    FieldSamples, Grid, Resources, Subject, SubjectPart, SubjectSink, Surface, Volume,
+    VolumeBuilder,
+};
 use fabrica::document::{
     Illustration, Lesson, ObjectSource, STYLE_PRESETS, SubjectRef, TemplateData,
 };
 use fabrica::load::{FieldUse, FileSet, LoadReport, MemoryFiles, OneFile, read_field};
 use fabrica::shell::clays::{ClayDesk, surface_of_clay};
-use fabrica::subjects::{FINE_RESOLUTION, tool};
+use fabrica::subjects::{FINE_RESOLUTION, Generator, tool};
 use glam::DVec3;
 use image::RgbaImage;
 use serde_json::{Value, json};
@@ -295,8 +298,8 @@ impl Findings {
 /// The native side.
 struct Native {
     gpu: Gpu,
-    /// The last subject, by name and resolution.
-    held: Option<((String, u32), Studio, Grid)>,
+    /// The last subject, by name, revision and resolution.
+    held: Option<((String, u32, u32), Studio, Grid)>,
     /// Pictures by their documents: without what it is about, many a case is the same.
     drawn: BTreeMap<String, RgbaImage>,
 }
@@ -317,10 +320,10 @@ impl Native {
         }
     }
 
-    fn subject(&mut self, name: &str, resolution: u32) -> (Studio, Grid) {
-        let wanted = (name.to_owned(), resolution);
+    fn subject(&mut self, (name, revision): (&str, u32), resolution: u32) -> (Studio, Grid) {
+        let wanted = (name.to_owned(), revision, resolution);
         if self.held.as_ref().is_none_or(|(held, ..)| *held != wanted) {
-            let volume = volume_of(name, resolution);
+            let volume = volume_of((name, revision), resolution);
             let grid = volume.grid;
             let studio = Studio::new(&self.gpu, &volume.into(), true).expect("the subject fits");
             self.held = Some((wanted, studio, grid));
@@ -334,9 +337,11 @@ impl Native {
         if let Some(image) = self.drawn.get(&text) {
             return image.clone();
         }
-        let name = document["subject"]["builtin"].as_str().expect("a name");
-        let (studio, _) = self.subject(name, RESOLUTION);
         let document = Document::from_json(&text).expect("a good document");
+        let SubjectRef::Builtin { name, revision } = &document.illustration().subject else {
+            panic!("a built-in subject: {text}")
+        };
+        let (studio, _) = self.subject((name, *revision), RESOLUTION);
         let image = drawn_by(&studio, document.illustration(), SIZE, FEW_SAMPLES).await;
         self.drawn.insert(text, image.clone());
         image
@@ -354,9 +359,14 @@ impl Native {
     }
 }
 
-fn volume_of(name: &str, resolution: u32) -> Volume {
+fn volume_of((name, revision): (&str, u32), resolution: u32) -> Volume {
+    let generator = Generator::of_revision(name, revision, resolution).expect("a subject");
     let mut builder = VolumeBuilder::new();
-    fabrica::subjects::generate(name, resolution, &mut builder).expect("a subject");
+    let header = SubjectPart::header(generator.header());
+    builder.take(header).expect("a header");
+    for part in generator.slab(0..generator.slice_count()).into_parts() {
+        builder.take(part).expect("a part");
+    }
     builder.finish().expect("a whole volume")
 }
 
@@ -393,10 +403,38 @@ fn browser_draws_kinds_as_the_native_program_does() {
     compare_cases(kinds);
 }
 
-/// The same of what documents have besides, and of styles.
+/// The same of what documents have besides, and of styles; where there is time, of the gallery's sweeps as well.
 #[test]
 fn browser_draws_what_else_there_is_as_the_native_program_does() {
-    compare_cases(|| besides().into_iter().chain(styles()).collect());
+    compare_cases(|| {
+        let sweeps = is_long().then(sweeps_of_the_gallery);
+        let always = besides().into_iter().chain(styles());
+        always.chain(sweeps.into_iter().flatten()).collect()
+    });
+}
+
+/// Documents of the gallery whose first template is a sweep, halfway and done to the end, with all that they have
+/// beside their steps.
+fn sweeps_of_the_gallery() -> Vec<Case> {
+    let folder = harness::root().join("web/gallery");
+    let mut cases = Vec::new();
+    for entry in std::fs::read_dir(folder).expect("the gallery") {
+        let path = entry.expect("a file").path();
+        let text = std::fs::read_to_string(&path).expect("a document");
+        let mut document: Value = serde_json::from_str(&text).expect("JSON");
+        if document["templates"][0]["kind"] != "sweep" {
+            continue;
+        }
+        let name = path.file_stem().expect("a name").display().to_string();
+        document.as_object_mut().expect("an object").remove("steps");
+        for percent in [50, 100] {
+            document["templates"][0]["params"]["progress"] = json!(f64::from(percent) / 100.0);
+            let name = format!("{name} {percent}");
+            cases.push(case(&name, &["/templates/0"], document.clone()));
+        }
+    }
+    assert!(cases.len() >= 8, "four documents: {}", cases.len());
+    cases
 }
 
 /// The same documents drawn by the page and by the native program.
@@ -450,7 +488,7 @@ async fn compare_field(session: &Session, native: &mut Native, findings: &mut Fi
     tab.settled().await;
     let page = promised(&tab, "window.fabrica.viewer.picture()").await;
 
-    let (studio, grid) = native.subject("cube", FINE_RESOLUTION);
+    let (studio, grid) = native.subject(("cube", 1), FINE_RESOLUTION);
     let document = Document::from_json(json).expect("a good document");
     let illustration = document.illustration();
     let size = page.dimensions().into();
@@ -666,7 +704,7 @@ fn ball_in(document: &Value) -> Subject {
     let Some(name) = document["subject"]["builtin"].as_str() else {
         return surface_of("ball.obj", bytes).into();
     };
-    let subject = Subject::from(volume_of(name, FINE_RESOLUTION));
+    let subject = Subject::from(volume_of((name, 1), FINE_RESOLUTION));
     let half = DVec3::splat(0.5 * subject.mm_per_unit().expect("it has a size"));
     subject.with_meshes(Some(surface_within("ball.obj", bytes, [-half, half])))
 }

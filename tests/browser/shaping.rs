@@ -29,6 +29,31 @@ async fn stroke(tab: &Tab, from: (f64, f64), by: (f64, f64)) -> serde_json::Valu
     subject["clay"]["strokes"].clone()
 }
 
+/// Begins a stroke at the nose, and loses the device before the hand lets go; waits until the page has come back.
+async fn lose_device_in_a_stroke(tab: &Tab) {
+    let (x, y) = find(tab, "Picture").await.middle();
+    mark(tab, "subject").await;
+    tab.mouse(DispatchMouseEventType::MouseMoved, x, y, false)
+        .await;
+    tab.frames(2).await;
+    tab.mouse(DispatchMouseEventType::MousePressed, x, y, true)
+        .await;
+    for i in 1..=4 {
+        let y = y + 12.0 * f64::from(i);
+        tab.mouse(DispatchMouseEventType::MouseMoved, x, y, true)
+            .await;
+        tab.frames(2).await;
+    }
+    changed(tab, "subject").await;
+    tab.eval::<bool>("(window.devices.at(-1).destroy(), true)")
+        .await;
+    tab.mouse(DispatchMouseEventType::MouseReleased, x, y + 48.0, true)
+        .await;
+    let is_back = "document.documentElement.dataset.losses === '1' && document.documentElement.dataset.state === 'started'";
+    tab.wait_until(is_back, 60).await;
+    tab.settled().await;
+}
+
 /// Drags with a pen that presses so hard, 0 to 1, as [`stroke`] does with the mouse.
 async fn pen_stroke(tab: &Tab, from: (f64, f64), by: (f64, f64), force: f64) -> serde_json::Value {
     let (x, y) = find(tab, "Picture").await.middle();
@@ -157,6 +182,18 @@ fn a_clay_is_shaped_by_hand_and_handed_on() {
         let off = difference(&shaped, &again, WHITE);
         assert!(off.mean < 0.2, "the same clay: {off:?}");
         other.assert_no_complaints().await;
+
+        // The graphics device is lost in the middle of a stroke: what was drawn until then is kept, and the hand goes on.
+        click(&other, "Shape the clay").await;
+        lose_device_in_a_stroke(&other).await;
+        let kept = document(&other).await["subject"]["clay"]["strokes"].clone();
+        println!("kept after the loss: {kept}");
+        assert_eq!(kept[0], ears[0], "{kept}");
+        assert_eq!(kept.as_array().map(Vec::len), Some(2), "{kept}");
+        click(&other, "Shape the clay").await;
+        let more = stroke(&other, (0.0, 30.0), (0.0, 60.0)).await;
+        assert_eq!(more.as_array().map(Vec::len), Some(3), "{more}");
+        assert_eq!(more[1], kept[1], "{more}");
 
         // With its document goes what its strokes have left, although the next subject cannot be had.
         let ended = "(Worker.prototype.terminate = (end => function () { window.ended = (window.ended ?? 0) + 1; end.call(this); })(Worker.prototype.terminate), true)";

@@ -7,6 +7,7 @@ use crate::scatter::Random;
 use fabrica::clay::{Check, Way};
 use fabrica::data::Grids;
 use fabrica::document::{Clay, Document, SubjectRef};
+use fabrica::link;
 use fabrica::shell::clays::ClayDesk;
 use glam::{DMat3, DVec3, Vec3};
 use serde_json::{Value, json};
@@ -165,6 +166,90 @@ fn a_replay_that_was_stopped_goes_on_and_is_taken_back() {
         assert!(stopped.is_err(), "{until}");
         assert_eq!(check(&mut desk, &clay.cut(11)).sha256, undone, "{until}");
     }
+}
+
+/// Strokes of every sort: of balls and of a bar, turned, growing, straight and curved, mirrored, together, smoothing,
+/// and one that is switched off.
+fn of_every_sort(count: usize) -> Value {
+    let mut random = Random(0x1900_0011);
+    let strokes = (0..count).map(|i| {
+        let [x, y, z] = whole(on_ball(&mut random, 0.48));
+        let mut path = vec![x, y, z];
+        for _ in 0..1 + i % 3 {
+            path.extend(whole(on_ball(&mut random, 0.06)));
+        }
+        let mut stroke = json!({ "path": path, "tool": i % 3 });
+        match i % 8 {
+            1 => stroke["turns"] = json!([0, 0, 0, 40, -20, 10]),
+            2 => stroke["scales"] = json!([100, 140]),
+            3 => stroke["mirror"] = json!("xy"),
+            4 => stroke["do"] = json!("smooth"),
+            5 => {
+                let [x, y, z] = whole(on_ball(&mut random, 0.5));
+                stroke["with"] = json!([{ "tool": 1, "path": [x, y, z] }]);
+            }
+            6 => stroke["straight"] = json!(true),
+            7 => stroke["off"] = json!(true),
+            _ => {}
+        }
+        stroke
+    });
+    let strokes: Vec<Value> = strokes.collect();
+    let tools = json!([
+        { "radius": 0.08, "coat": 0.1 },
+        { "radius": 0.12 },
+        { "shape": "capsule", "radius": 0.05, "length": 0.2, "coat": 0.08 }
+    ]);
+    json!({ "detail": 0.06, "tools": tools, "strokes": strokes })
+}
+
+/// What a hand has on its screen after each stroke, one undone and another in its place among them, is bit for bit what
+/// somebody sees who opens the link of that moment.
+#[test]
+fn what_a_hand_shaped_is_what_its_link_gives() {
+    let mut live = ClayDesk::default();
+    let recipe = of_every_sort(24);
+    let mut moments: Vec<Value> = (1..=24)
+        .map(|strokes| {
+            let mut moment = recipe.clone();
+            let list = moment["strokes"].as_array_mut().expect("strokes");
+            list.truncate(strokes);
+            moment
+        })
+        .collect();
+    let mut other = moments[11].clone();
+    other["strokes"][11]["path"] = json!([0, 480, 0, 0, 40, 10]);
+    moments.splice(12..12, [moments[10].clone(), other, moments[11].clone()]);
+    let mut seen = std::collections::BTreeSet::new();
+    for moment in moments {
+        let document = json!({ "fabrica": 1, "subject": { "clay": moment } });
+        let document = Document::from_value(document).expect("a document");
+        let sent = link::encode(&document);
+        let opened = link::decode(&sent).expect("a link").document;
+        let [here, there] =
+            [&document, &opened].map(|document| match &document.illustration().subject {
+                SubjectRef::Clay(clay) => Arc::clone(clay),
+                other => panic!("{other:?}"),
+            });
+        let strokes = here.strokes.len();
+        let shown = live.shape(&here, &mut |_| true).expect("it is shaped");
+        assert_eq!(shown.left_out(), [], "{strokes}");
+        let shown = shown.shaped();
+        let mut anew = ClayDesk::default();
+        let replayed = anew.shape(&there, &mut |_| true).expect("it is shaped");
+        let replayed = replayed.shaped();
+        assert_eq!(shown.triangles, replayed.triangles, "{strokes} strokes");
+        let bits = |list: &[Vec3]| -> Vec<[u32; 3]> {
+            list.iter()
+                .map(|v| v.to_array().map(f32::to_bits))
+                .collect()
+        };
+        assert_eq!(bits(&shown.positions), bits(&replayed.positions));
+        assert_eq!(bits(&shown.normals), bits(&replayed.normals));
+        seen.insert(Check::of_clay(&shown).sha256);
+    }
+    // The strokes switched off change nothing, all others do: every eighth of 24 is off, and one is another.
+    assert_eq!(seen.len(), 24 - 3 + 1);
 }
 
 /// A tool far thinner than an edge is long, around the clay by as many keys as a path may have.

@@ -494,7 +494,8 @@ fn what_no_coating_meets_keeps_its_bits_and_nothing_folds() {
     for round in 0..long_or(10, 4) {
         let document = document(sweeps(&mut random, round));
         let illustration = document.illustration();
-        let points: Vec<Vec3> = (0..4000).map(|_| random.vector(-0.7, 0.7)).collect();
+        let points = (0..long_or(10_000, 4000)).map(|_| random.vector(-0.7, 0.7));
+        let points: Vec<Vec3> = points.collect();
         let found = ask(&document, &points);
         let resources = Resources::default();
         let reaches: Vec<_> = illustration

@@ -2,7 +2,7 @@
 
 use egui::{Rect, Ui};
 
-use super::{steps, title};
+use super::{steps, title, view_bar};
 use crate::app::session::{Command, Session};
 
 /// Where they lie; one of them at most, so that neither covers the other and no text is there twice.
@@ -28,10 +28,12 @@ impl Foot {
         self.steps.or(self.card).map(|rect| rect.top())
     }
 
-    /// The part of the area that is left for panes: slices are not covered, the picture alone is.
+    /// The part of the area that is left for panes. A card of many lines leaves them the upper half, and covers more.
     pub(crate) fn panes(&self, area: Rect, session: &Session) -> Rect {
         match self.top() {
-            Some(top) if session.view.is_split => area.with_max_y(top - 8.0),
+            Some(top) if view_bar::is_card_under(area, session) => {
+                area.with_max_y((top - 8.0).max(area.center().y))
+            }
             _ => area,
         }
     }

@@ -462,11 +462,7 @@ pub(crate) fn bar_ui(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut 
     let (way_width, form_width) = (0.56 * room, 0.44 * room);
     let shown = widget::combo("way of strokes", way_title(hand.way).0, way_width);
     let shown = shown.show_ui(ui, |ui| {
-        let ways = match session.is_sweeping() {
-            true => StrokeWay::OF_SWEEPS.iter(),
-            false => StrokeWay::OF_CLAYS.iter(),
-        };
-        for &way in ways {
+        for &way in StrokeWay::offered(session.is_sweeping()) {
             let (title, hint) = way_title(way);
             let label = ui.selectable_label(way == hand.way, title);
             if label.on_hover_text(hint).clicked() {

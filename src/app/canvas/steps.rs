@@ -67,22 +67,22 @@ fn credit(ui: &Ui, session: &Session, width: f32) -> Option<Arc<Galley>> {
     galley(ui, credit, 12.0, width).filter(|_| session.are_panels_hidden)
 }
 
-/// Where the bar lies in the part of the window that shows the object: over the foot of the picture; under the panes
-/// where slices are shown, always as high as the longest legend needs, so that the panes stay as they are. None without
+/// Where the bar lies in the part of the window that shows the object: over the foot of the picture; or under the panes
+/// (`is_card_under`), always as high as the longest legend needs, so that the panes stay as they are. None without
 /// steps.
 pub(crate) fn place(ui: &Ui, area: Rect, session: &Session) -> Option<Rect> {
     let count = session.document().step_count();
     if count == 0 || area.height() < 220.0 {
         return None;
     }
-    let is_split = session.view.is_split;
+    let is_under = view_bar::is_card_under(area, session);
     let free = view_bar::above_foot(area, session);
-    let widest = match is_split {
+    let widest = match is_under {
         true => WIDEST_UNDER_PANES,
         false => WIDEST,
     };
     let width = (free.width() - 16.0).min(widest);
-    let shown = if is_split {
+    let shown = if is_under {
         0..=count
     } else {
         session.step()..=session.step()
@@ -92,7 +92,7 @@ pub(crate) fn place(ui: &Ui, area: Rect, session: &Session) -> Option<Rect> {
     let legends = shown.map(|step| height_of(galley(ui, texts(session, step).1, 14.0, width)));
     let text = legends.fold(0.0, f32::max) + height_of(credit(ui, session, width));
     let height = ROW + text.min(0.3 * area.height());
-    let below = if is_split { 8.0 } else { MARGIN };
+    let below = if is_under { 8.0 } else { MARGIN };
     let corner = free.center_bottom() - vec2(0.5 * width, height + below);
     Some(Rect::from_min_size(corner, vec2(width, height)))
 }

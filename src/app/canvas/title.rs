@@ -71,13 +71,14 @@ fn galleys(ui: &Ui, area: Rect, session: &Session) -> Vec<Arc<Galley>> {
 }
 
 /// Where the card of title, legend and credit lies in the part of the window that shows the object: over the foot of
-/// the picture, under the panes where slices are shown. None without texts.
+/// the picture, or under the panes (`is_card_under`). None without texts.
 pub(crate) fn place(ui: &Ui, area: Rect, session: &Session) -> Option<Rect> {
     let galleys = galleys(ui, area, session);
     let height: f32 = galleys.iter().map(|galley| galley.size().y + 4.0).sum();
     let widths = galleys.iter().map(|galley| galley.size().x);
     let size = vec2(widths.reduce(f32::max)?, height) + vec2(28.0, 16.0);
-    let below = if session.view.is_split { 8.0 } else { 18.0 };
+    let is_under = view_bar::is_card_under(area, session);
+    let below = if is_under { 8.0 } else { 18.0 };
     let free = view_bar::above_foot(area, session);
     let corner = free.center_bottom() - vec2(0.5 * size.x, size.y + below);
     Some(Rect::from_min_size(corner, size))

@@ -32,23 +32,25 @@ pub(crate) fn column_width(picture: Rect) -> f32 {
     }
 }
 
-/// Points that the ball of axes and the way home take at the left, and at the foot of the picture.
+/// Points that the ball of axes and the way home take at the left of the picture.
 const BESIDE_THE_BALL: f32 = 148.0;
-const ABOVE_THE_BALL: f32 = 112.0;
+/// Points of width up to which a card and the ball have no room beside each other.
+const NARROW: f32 = 620.0;
 
-/// The part of the window that shows the object at whose foot a card may lie: all of it where slices are shown, for the
-/// card lies under the panes then. Over the picture beside the ball of axes where there is room for both, else above
-/// the ball, and beside the buttons.
-pub(crate) fn above_foot(picture: Rect, session: &Session) -> Rect {
-    if session.view.is_split {
-        return picture;
+/// True if a card at the foot of the part of the window that shows the object lies under the panes, not over the
+/// picture: where slices are shown, and in narrow windows, where it would cover the object.
+pub(crate) fn is_card_under(area: Rect, session: &Session) -> bool {
+    session.view.is_split || area.width() <= NARROW
+}
+
+/// The part of the window that shows the object at whose foot a card may lie: all of it under the panes; over the
+/// picture between the ball of axes and the buttons.
+pub(crate) fn above_foot(area: Rect, session: &Session) -> Rect {
+    if is_card_under(area, session) {
+        return area;
     }
-    let free = if picture.width() > 620.0 {
-        picture.with_min_x(picture.left() + BESIDE_THE_BALL)
-    } else {
-        picture.with_max_y(picture.bottom() - ABOVE_THE_BALL)
-    };
-    free.with_max_x(free.right() - column_width(picture))
+    let free = area.with_min_x(area.left() + BESIDE_THE_BALL);
+    free.with_max_x(free.right() - column_width(area))
 }
 
 /// The part of a picture that texts over it may fill: beside the buttons and above the ball of axes.
@@ -62,6 +64,14 @@ pub(crate) fn beside(picture: Rect) -> Rect {
     area.max.x -= column_width(picture);
     area.max.y -= foot;
     area
+}
+
+/// The part of the panes over which messages may lie: the buttons and the ball of axes stay within reach.
+pub(crate) fn for_messages(panes: Rect) -> Rect {
+    match panes.width() <= NARROW {
+        true => beside(panes),
+        false => panes.shrink2(vec2(150.0, 22.0)),
+    }
 }
 
 /// All of it, in the corners of a rectangle.

@@ -16,9 +16,6 @@ use crate::document::{
     Align, Constrain, ConstrainBy, Edit, Illustration, PlacedTemplate, Recipe, keep_sets,
 };
 
-/// Depth and thickness where the document has none (contract, "Defaults").
-const DEPTH: f32 = 0.02;
-const THICKNESS: f32 = 0.01;
 /// The largest that sliders offer; a document may hold larger ones.
 const MOST_DEPTH: f32 = 0.3;
 const MOST_THICKNESS: f32 = 0.05;
@@ -167,12 +164,12 @@ fn align_ui(
         let align = match leaves {
             Leaves::Nothing => Align::Axis,
             Leaves::Deep => Align::Surface {
-                depth: DEPTH,
-                thickness: THICKNESS,
+                depth: Align::DEFAULT_DEPTH,
+                thickness: Align::DEFAULT_THICKNESS,
             },
             Leaves::Tissue => Align::Segment {
                 keep: first_set(all, segments),
-                thickness: THICKNESS,
+                thickness: Align::DEFAULT_THICKNESS,
             },
         };
         commands.push(Command::Apply(set(align)));
@@ -180,9 +177,14 @@ fn align_ui(
     match &template.align {
         Align::Axis => {}
         Align::Surface { depth, thickness } => {
-            if let Some(change) =
-                length_row(w().depth, w().depth_hint, *depth, DEPTH, MOST_DEPTH).ui(ui)
-            {
+            let row = length_row(
+                w().depth,
+                w().depth_hint,
+                *depth,
+                Align::DEFAULT_DEPTH,
+                MOST_DEPTH,
+            );
+            if let Some(change) = row.ui(ui) {
                 let edit = change.map(|depth| {
                     set(Align::Surface {
                         depth: depth as f32,
@@ -316,7 +318,7 @@ fn blend_row(thickness: f32) -> NumberRow<'static> {
         w().blend,
         w().blend_hint,
         thickness,
-        THICKNESS,
+        Align::DEFAULT_THICKNESS,
         MOST_THICKNESS,
     )
 }

@@ -14,11 +14,11 @@ use crate::app::words::{fill, names};
 /// Lines shown at once over the picture.
 const SHOWN: usize = 3;
 
-/// Over the bottom of the picture: loading, then the newest lines. `floor` is the top of a card there, which they keep
-/// free, points.
+/// At the bottom of the area: loading, then the newest lines. `floor` is the top of a card there, which they keep free,
+/// points.
 pub(crate) fn ui(
     ui: &Ui,
-    rect: Rect,
+    area: Rect,
     floor: Option<f32>,
     session: &Session,
     commands: &mut Vec<Command>,
@@ -29,21 +29,16 @@ pub(crate) fn ui(
     if !is_busy && !is_bending && session.notices.shown().next().is_none() {
         return;
     }
-    let is_narrow = rect.width() < 560.0;
-    let width = (rect.width() - if is_narrow { 20.0 } else { 300.0 }).clamp(240.0, 460.0);
-    let bottom = if is_narrow {
-        rect.bottom() - 128.0
-    } else {
-        rect.bottom() - 22.0
-    };
-    let bottom = floor.map_or(bottom, |floor| bottom.min(floor - 8.0));
-    let area = egui::Area::new(egui::Id::unique("notices"))
+    let width = area.width().clamp(240.0, 460.0);
+    let bottom = floor.map_or(area.bottom(), |floor| area.bottom().min(floor - 8.0));
+    let foot = egui::pos2(area.center().x, bottom);
+    let shown = egui::Area::new(egui::Id::unique("notices"))
         .order(egui::Order::Middle)
         .pivot(egui::Align2::CENTER_BOTTOM)
-        .fixed_pos(egui::pos2(rect.center().x, bottom))
-        .constrain_to(rect)
+        .fixed_pos(foot)
+        .constrain_to(ui.max_rect())
         .fade_in(false);
-    area.show(ui.ctx(), |ui| {
+    shown.show(ui.ctx(), |ui| {
         ui.set_width(width);
         ui.spacing_mut().item_spacing.y = 6.0;
         let count = session.notices.shown().count();
@@ -62,8 +57,8 @@ pub(crate) fn ui(
             stopped_ui(ui, commands);
         }
         // A hand that shapes clay asks for one sketch after the other: a bar for each would flicker.
-        let is_sketch = session.wants_sketch();
-        if let Some(load) = session.load.as_ref().filter(|_| !is_sketch) {
+        let is_hidden = session.is_sketch_of_hand();
+        if let Some(load) = session.load.as_ref().filter(|_| !is_hidden) {
             load_ui(ui, load, commands);
         } else if session.is_reading {
             card(ui, Palette::get(ui).line, |ui| ui.label(w().loading));

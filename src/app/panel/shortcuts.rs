@@ -2,7 +2,9 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use crate::app::session::{ClayCommand, Command, GizmoMode, See, StandardView, StepCommand};
+use crate::app::session::{
+    ClayCommand, Command, GizmoMode, HandCommand, See, StandardView, StepCommand,
+};
 use crate::app::words::keys::w;
 use crate::document::Plane;
 
@@ -97,6 +99,18 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
             Key::J,
             Command::Clay(ClayCommand::Together),
             crate::app::words::clay::w().key_together,
+        ),
+        entry(
+            SHIFT,
+            Key::Q,
+            Command::Hand(HandCommand::NextWay(false)),
+            "",
+        ),
+        entry(
+            NONE,
+            Key::Q,
+            Command::Hand(HandCommand::NextWay(true)),
+            crate::app::words::clay::w().key_way,
         ),
         entry(NONE, Key::K, Command::ToggleSnap, w.snap),
         entry(

@@ -26,16 +26,24 @@ pub(crate) fn ui(
     }
     let illustration = session.illustration();
     widget::heading(ui, w().heading, |_| {});
+    let title_id = egui::Id::unique("title of the document");
+    if focus.take_if(|focus| *focus == Focus::Title).is_some() {
+        // Asked for before the field is shown, so that a screen reader speaks the field's name.
+        ui.memory_mut(|memory| memory.request_focus(title_id));
+    }
     let mut field =
         |ui: &mut Ui, name: &str, hint: &str, text: &str, rows: usize, edit: fn(String) -> Edit| {
             let weak = Palette::get(ui).weak;
             let label = ui.label(egui::RichText::new(name).color(weak));
             let mut text = text.to_owned();
-            let widget = if rows == 1 {
+            let mut widget = if rows == 1 {
                 TextEdit::singleline(&mut text).align(egui::Align2::LEFT_CENTER)
             } else {
                 TextEdit::multiline(&mut text)
             };
+            if name == w().title {
+                widget = widget.id(title_id);
+            }
             let widget = widget
                 .hint_text(hint)
                 .desired_rows(rows)

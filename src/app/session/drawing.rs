@@ -34,6 +34,12 @@ impl Session {
     pub(super) fn run_hand(&mut self, command: HandCommand) {
         match command {
             HandCommand::Hold(hand) => self.hold(hand),
+            HandCommand::NextWay(is_next) if self.has_hand() => {
+                let hand = self.hand().clone();
+                let way = hand.way.beside(self.is_sweeping(), is_next);
+                self.hold(HeldTool { way, ..hand });
+            }
+            HandCommand::NextWay(_) => {}
             HandCommand::Draw {
                 way,
                 touches,
@@ -66,7 +72,7 @@ impl Session {
             mirror: [false; 3],
             ..HeldTool::default()
         });
-        if !StrokeWay::OF_SWEEPS.contains(&hand.way) {
+        if !StrokeWay::offered(true).contains(&hand.way) {
             hand.way = StrokeWay::Move;
         }
     }
@@ -313,7 +319,7 @@ mod tests {
         let grown = drawn(StrokeWay::Grow, 0.25 * seen * up).expect("growth");
         assert!((grown[1].scale - 2.0).abs() < 0.01);
         assert!(drawn(StrokeWay::Along, 0.2 * right).is_some());
-        for way in StrokeWay::OF_SWEEPS {
+        for &way in StrokeWay::offered(true) {
             assert!(drawn(way, Vec3::ZERO).is_none(), "{way:?}: at rest");
         }
     }

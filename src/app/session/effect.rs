@@ -39,6 +39,8 @@ pub enum Focus {
     Tissues,
     /// The text field of the caption of this index.
     Caption(usize),
+    /// The text field of the document's title.
+    Title,
 }
 
 /// One thing to do outside of the session.

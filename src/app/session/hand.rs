@@ -36,8 +36,8 @@ pub enum StrokeWay {
 }
 
 impl StrokeWay {
-    /// What drags may do to a clay, in the order of the buttons.
-    pub const OF_CLAYS: [Self; 8] = [
+    /// What drags may do to a clay, in the order in which it is offered; where they draw a sweep, the first of it.
+    const ALL: [Self; 8] = [
         Self::Move,
         Self::Push,
         Self::Along,
@@ -47,16 +47,25 @@ impl StrokeWay {
         Self::Smooth,
         Self::Place,
     ];
+    const OF_SWEEPS: usize = 6;
 
-    /// What they may do where they draw a sweep.
-    pub const OF_SWEEPS: [Self; 6] = [
-        Self::Move,
-        Self::Push,
-        Self::Along,
-        Self::Turn,
-        Self::TurnInView,
-        Self::Grow,
-    ];
+    /// What drags may do where they draw a sweep, or where they shape a clay.
+    pub const fn offered(is_sweep: bool) -> &'static [Self] {
+        match is_sweep {
+            true => Self::ALL.split_at(Self::OF_SWEEPS).0,
+            false => &Self::ALL,
+        }
+    }
+
+    /// The next or the last one that is offered, around the end; the first after one that is not.
+    pub fn beside(self, is_sweep: bool, is_next: bool) -> Self {
+        let ways = Self::offered(is_sweep);
+        let Some(at) = ways.iter().position(|way| *way == self) else {
+            return ways[0];
+        };
+        let by = if is_next { 1 } else { ways.len() - 1 };
+        ways[(at + by) % ways.len()]
+    }
 
     /// The same with Alt held, or without it: that turns push and pull over, and nothing else.
     #[must_use]
@@ -257,6 +266,8 @@ impl HeldTool {
 pub enum HandCommand {
     /// Changes the tool in the hand.
     Hold(HeldTool),
+    /// Goes on to the next way of drags that is offered, or to the one before.
+    NextWay(bool),
     /// The way of the hand, as far as it has come.
     Draw {
         /// What the drag does.

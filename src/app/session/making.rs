@@ -280,7 +280,7 @@ mod tests {
     use super::super::{Command, Session, Taken};
     use super::*;
     use crate::data::Segment;
-    use crate::document::{Align, CleanStep, Transfer};
+    use crate::document::{Align, CleanStep, TemplateKind, Transfer};
 
     /// A session with a scan of eight voxels of these sides, mm, and these segments, that shows the tissues.
     fn session_of(json: &str, voxel_mm: f64, segments: &[&str]) -> Session {
@@ -386,6 +386,34 @@ mod tests {
         session.run(Command::Undo, 0.0);
         assert_eq!((session.tissues.making, session.tissues.open), (None, None));
         assert_eq!(session.tissues.alone, None, "nothing to show alone");
+    }
+
+    /// What a template does to tissue that is placed in the middle of what the session shows.
+    fn placed(session: &mut Session) -> Align {
+        session.tool = Tool::Place(TemplateKind::Peel);
+        session.run(Command::PlaceOnOrAtTarget(None), 0.0);
+        session.illustration().templates[0].align.clone()
+    }
+
+    #[test]
+    fn the_first_template_leaves_the_only_tissue_in_place() {
+        let mut session = session_of(EMPTY, 1.0, &[]);
+        assert_eq!(placed(&mut session), Align::Axis, "nothing to keep");
+
+        let mut session = session_of(EMPTY, 1.0, &[]);
+        make(&mut session, "bone");
+        let before = session.document().to_json();
+        placed(&mut session);
+        assert_eq!(kept(&session), ["bone"]);
+        session.run(Command::Undo, 0.0);
+        assert_eq!(session.document().to_json(), before, "one step of undo");
+
+        make(&mut session, "skin");
+        assert_eq!(placed(&mut session), Align::Axis, "one of two");
+
+        let mut session = session_of(EMPTY, 1.0, &["femur"]);
+        make(&mut session, "bone");
+        assert_eq!(placed(&mut session), Align::Axis, "the scan has its own");
     }
 
     #[test]

@@ -40,6 +40,7 @@ mod files;
 mod found;
 mod gesture;
 mod grouping;
+mod growing;
 mod hand;
 mod lending;
 mod library;

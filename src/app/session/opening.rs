@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::effect::{Effect, LinkChange};
+use super::growing::Growing;
 use super::mode::Mode;
 use super::notices::Gravity;
 use super::session::{Load, LoadOf, STORED_DOCUMENT, Session, payload_of};
@@ -38,6 +39,7 @@ impl Session {
         self.home = self.camera;
         self.revision += 1;
         self.opened += 1;
+        self.growing = Some(Growing::default());
         self.is_restored = false;
         self.store(STORED_DOCUMENT, self.link_tail());
         match notices.as_slice() {
@@ -81,8 +83,9 @@ impl Session {
 
     /// Asks for the document's subject unless it is there or on its way.
     pub fn load_subject(&mut self) {
-        let subject = self.shown().subject_shown();
-        let is_sketch = self.history.is_in_drag() && matches!(subject, SubjectRef::Clay(_));
+        let (subject, has_more) = self.part_of(self.shown().subject_shown());
+        let is_shaped = self.history.is_in_drag() && matches!(subject, SubjectRef::Clay(_));
+        let is_sketch = has_more || is_shaped;
         if !is_of(&self.requested, &subject) || (self.is_sketch_requested && !is_sketch) {
             self.given_up = None;
             self.is_sketch_requested = is_sketch;
@@ -122,9 +125,14 @@ impl Session {
         is_sketch && !self.history.is_in_drag()
     }
 
-    /// True if the subject that is asked for is wanted soon: a hand is shaping it.
+    /// True if the subject that is asked for is wanted soon: a hand is shaping it, or more of its strokes follow.
     pub fn wants_sketch(&self) -> bool {
         self.is_sketch_requested
+    }
+
+    /// True if what is asked for is the sketch that a hand waits for.
+    pub fn is_sketch_of_hand(&self) -> bool {
+        self.is_sketch_requested && self.growing.is_none()
     }
 
     /// True if a subject is a clay as far as its strokes are shown.
@@ -148,6 +156,18 @@ impl Session {
             self.is_as_shown(&self.requested) && !self.outlives(self.is_sketch_requested);
         if self.load.is_none() && self.awaits_clay() && !is_asked {
             self.load_subject();
+        }
+    }
+
+    /// How far the load under way is: of a clay of which more follows, a part of the whole.
+    pub fn hear_progress(&mut self, fraction: f32, what: String) {
+        let part = self.part_under_way();
+        if let Some(load) = &mut self.load {
+            load.fraction = match load.of {
+                LoadOf::Subject => part * fraction,
+                _ => fraction,
+            };
+            load.what = what;
         }
     }
 
@@ -401,8 +421,11 @@ impl Session {
         if let Some(load) = self.load.take()
             && load.of == LoadOf::Subject
         {
-            // What came to nothing is not asked for again by itself.
-            self.given_up = self.requested.take();
+            // What came to nothing is not asked for again by itself, nor is more of it.
+            self.given_up = match (self.requested.take(), self.growing.take()) {
+                (Some(_), Some(_)) => Some(self.shown().subject_shown()),
+                (asked, _) => asked,
+            };
         }
     }
 

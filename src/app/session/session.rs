@@ -7,6 +7,7 @@ use super::clipboard::Clipboard;
 use super::command::{GizmoMode, PicturePaper};
 use super::effect::{Effect, LinkChange};
 use super::files::{FileChoice, RawDraft};
+use super::growing::Growing;
 use super::hand::HeldTool;
 use super::library::Library;
 use super::mode::Mode;
@@ -184,6 +185,8 @@ pub struct Session {
     pub files: FileChoice,
     /// The subject that was loaded, or is on its way.
     pub(super) requested: Option<SubjectRef>,
+    /// It is a clay that was opened, of which more and more is asked for.
+    pub(super) growing: Option<Growing>,
     /// It is wanted as a sketch, as while a hand shapes a clay.
     pub(super) is_sketch_requested: bool,
     /// The subject whose load came to nothing.
@@ -294,6 +297,7 @@ impl Session {
             mesh_question: None,
             files: FileChoice::default(),
             requested: None,
+            growing: None,
             is_sketch_requested: false,
             given_up: None,
             shown_subject: None,

@@ -364,7 +364,7 @@ mod tests {
     use crate::app::session::shape::seen_across;
     use crate::app::session::{Command, Effect, HandCommand, See, Ticket};
     use crate::data::{Subject, Surface};
-    use crate::document::{ClayShape, Document, clay_to_text};
+    use crate::document::{ClayShape, Document, TemplateKind, clay_to_text};
     use glam::Vec3;
 
     const UP: Touch = Touch {
@@ -438,6 +438,36 @@ mod tests {
         assert!(strokes(&session).is_empty());
         session.run(Command::Redo, 0.0);
         assert_eq!(strokes(&session).len(), 1);
+    }
+
+    #[test]
+    fn a_command_goes_through_the_ways_to_drag() {
+        let mut session = session();
+        let mut next = |is_next: bool| {
+            session.run(Command::Hand(HandCommand::NextWay(is_next)), 0.0);
+            session.hand().way
+        };
+        let forth = [StrokeWay::Push, StrokeWay::Along, StrokeWay::Turn];
+        assert_eq!(forth.map(|_| next(true)), forth);
+        let back = [StrokeWay::Along, StrokeWay::Push, StrokeWay::Move];
+        assert_eq!(back.map(|_| next(false)), back);
+        assert_eq!(
+            [next(false), next(true)],
+            [StrokeWay::Place, StrokeWay::Move]
+        );
+        // A sweep is not smoothed, and its tool not laid down.
+        session.take_tool(Tool::Place(TemplateKind::Sweep));
+        let mut seen = Vec::new();
+        for _ in 0..6 {
+            session.run(Command::Hand(HandCommand::NextWay(true)), 0.0);
+            seen.push(session.hand().way);
+        }
+        assert_eq!(seen[5], StrokeWay::Move);
+        assert!(!seen.contains(&StrokeWay::Smooth) && !seen.contains(&StrokeWay::Place));
+        // With no tool in hand it is left as it was.
+        session.take_tool(Tool::Look);
+        session.run(Command::Hand(HandCommand::NextWay(true)), 0.0);
+        assert_eq!(session.hand().way, StrokeWay::Move);
     }
 
     /// What a hand shapes is asked for as a sketch, and when the hand has left as it stays.

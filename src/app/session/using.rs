@@ -15,7 +15,9 @@ use super::tissues::{with_range, with_seeds};
 use super::tool::Tool;
 use crate::app::words::{capitalized, captions, fill, kept, messages};
 use crate::clay::Way;
-use crate::document::{Camera, Caption, Edit, MAX_SEEDS, RecipeSource, SubjectRef, TemplateKind};
+use crate::document::{
+    Align, Camera, Caption, Edit, MAX_SEEDS, RecipeSource, SubjectRef, TemplateKind,
+};
 use crate::math::Placement;
 
 impl Session {
@@ -92,15 +94,42 @@ impl Session {
         }
         self.tool = Tool::Look;
         let index = self.template_count();
-        let edit = Edit::AddTemplate {
+        let mut edit = Edit::AddTemplate {
             index,
             kind,
             placement: placement_on_surface(kind, pos, normal, &self.camera),
         };
+        if let Some(keep) = self.keep_the_only_tissue(index) {
+            edit = Edit::All {
+                name: edit.name(self.document()),
+                edits: vec![edit, keep],
+            };
+        }
         if self.apply(&edit, false) {
             self.selection = Selection::Template(index);
             self.side_tab = Tab::Templates;
         }
+    }
+
+    /// Whoever made the only tissue of a scan, and then places a first template, means that tissue to stay in place.
+    fn keep_the_only_tissue(&self, index: usize) -> Option<Edit> {
+        let illustration = self.illustration();
+        let [recipe] = &illustration.recipes[..] else {
+            return None;
+        };
+        let mut segments = self
+            .view
+            .subject
+            .iter()
+            .flat_map(|facts| facts.segments.values());
+        let is_only = segments.all(|name| *name == recipe.name);
+        (is_only && index == 0).then(|| Edit::SetAlign {
+            template: index,
+            align: Align::Segment {
+                keep: vec![recipe.name.clone()],
+                thickness: Align::DEFAULT_THICKNESS,
+            },
+        })
     }
 
     /// Fastens a caption to the tissue that was found, with the name of its segment; the text is to be typed next.

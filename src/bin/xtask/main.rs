@@ -13,6 +13,7 @@ mod lint;
 mod page;
 mod palette;
 mod pieces;
+mod readme;
 mod run;
 mod setup;
 mod sheet;
@@ -36,6 +37,7 @@ cargo xtask COMMAND
   gallery [--only NAME]  draw every built-in subject and every illustration of web/gallery into
                     target/gallery/index.html (also --size PIXELS, --program FILE, --page URL)
   examples          write the list of examples out of web/gallery, and draw their pictures anew
+  readme            draw the sheets of pictures of the README anew, out of web/gallery (--only FILE, --program FILE)
   icons             draw the icons of the catalogue anew, into the picture that ships with the program
   islands           draw every document of web/gallery at each step and every built-in subject, and name what floats
                     beside the object in fewer than 40 pixels (--only NAME, --program FILE)
@@ -63,6 +65,7 @@ fn main() -> ExitCode {
         Some("gallery") => gallery::gallery(rest),
         Some("icons") => sheet::icons(rest),
         Some("examples") => sheet::examples(rest),
+        Some("readme") => readme::readme(rest),
         Some("islands") => islands::islands(rest),
         Some("evaluate") => evaluate::evaluate(),
         Some("shaders") => check::shaders(rest),

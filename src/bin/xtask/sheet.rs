@@ -1,5 +1,5 @@
-//! `cargo xtask icons` and `cargo xtask examples`: the pictures that ship with the program, drawn by the native program
-//! and packed into sheets of equal tiles.
+//! Pictures drawn by the native program and packed into sheets of equal tiles. `cargo xtask icons` and `cargo xtask
+//! examples`: those that ship with the program.
 //!
 //! A sheet is a PNG with a palette of 256 colours: a third of the bytes of one with all colours, and no difference that
 //! an eye finds in a picture of this size.
@@ -48,7 +48,7 @@ pub(crate) fn examples(args: &[String]) -> Outcome {
 }
 
 /// The native program: that of `--program FILE`, else it is built.
-fn program_of(command: &str, args: &[String]) -> Result<PathBuf, String> {
+pub(crate) fn program_of(command: &str, args: &[String]) -> Result<PathBuf, String> {
     match args {
         [] => native(None),
         [flag, path] if flag == "--program" => native(Some(path.as_ref())),
@@ -57,7 +57,7 @@ fn program_of(command: &str, args: &[String]) -> Result<PathBuf, String> {
 }
 
 /// Tiles on their way into one picture.
-struct Sheet {
+pub(crate) struct Sheet {
     /// Width and height of a tile, pixels.
     tile: [u32; 2],
     columns: u32,
@@ -65,7 +65,7 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn new(tile: [u32; 2], columns: u32) -> Self {
+    pub(crate) fn new(tile: [u32; 2], columns: u32) -> Self {
         Self {
             tile,
             columns,
@@ -74,7 +74,7 @@ impl Sheet {
     }
 
     /// Draws the next tile: a document at a step.
-    fn add(&mut self, fabrica: &Path, document: &Document, step: usize) -> Outcome {
+    pub(crate) fn add(&mut self, fabrica: &Path, document: &Document, step: usize) -> Outcome {
         let folder = root().join("target/xtask");
         fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
         let file = folder.join("tile.png");
@@ -103,7 +103,7 @@ impl Sheet {
         (size, pixels)
     }
 
-    fn write(&self, path: &Path, compression: png::Compression) -> Outcome {
+    pub(crate) fn write(&self, path: &Path, compression: png::Compression) -> Outcome {
         let (size, pixels) = self.pixels();
         let bytes = encoded(size, &pixels, compression)
             .map_err(|error| format!("{}: {error}", path.display()))?;
