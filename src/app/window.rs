@@ -582,7 +582,10 @@ impl App {
 
     fn keys(&mut self, ui: &Ui, commands: &mut Vec<Command>) {
         let mut is_typing = ui.ctx().text_edit_focused()
-            || matches!(self.focus, Some(Focus::Search | Focus::Tissues));
+            || matches!(
+                self.focus,
+                Some(Focus::Search | Focus::Tissues | Focus::Title)
+            );
         let has_arrows = viewport::has_arrows(ui, self.picture_id(ui));
         let is_sheet_open = self.is_sheet_open();
         let is_shaping = self.session.has_hand();

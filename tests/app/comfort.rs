@@ -218,6 +218,38 @@ fn clicks_count_on_slow_devices() {
     assert!(is_open(&window), "it was clicked");
 }
 
+/// Whoever comes to the texts with the mouse types the title at once, also where the click is over within one frame;
+/// a title that is there already stays.
+#[test]
+fn the_title_is_typed_at_once() {
+    let typed = |json: &str, is_slow: bool| {
+        let mut window = Window::open(DESK, json);
+        let at = window.harness.get_by_label("Panel: Text").rect().center();
+        if is_slow {
+            window.harness.hover_at(at);
+            window.harness.step();
+            for pressed in [true, false] {
+                window.harness.event(egui::Event::PointerButton {
+                    pos: at,
+                    button: egui::PointerButton::Primary,
+                    pressed,
+                    modifiers: Modifiers::NONE,
+                });
+            }
+            window.harness.step();
+        } else {
+            window.click_at(at);
+        }
+        window.harness.event(egui::Event::Text("Skull".to_owned()));
+        window.steps(3);
+        window.document().illustration().title.clone()
+    };
+    assert_eq!(typed(CUBE, false), "Skull");
+    assert_eq!(typed(CUBE, true), "Skull");
+    let titled = CUBE.replace("{ ", r#"{ "title": "Bone", "#);
+    assert_eq!(typed(&titled, false), "Bone");
+}
+
 /// A drawer begins at its top, wherever the one before it was scrolled to.
 #[test]
 fn each_drawer_begins_at_its_top() {

@@ -27,7 +27,12 @@ pub(crate) fn ui(
     let illustration = session.illustration();
     widget::heading(ui, w().heading, |_| {});
     let title_id = egui::Id::unique("title of the document");
-    if focus.take_if(|focus| *focus == Focus::Title).is_some() {
+    // Nothing keeps the focus in a frame with a press or a click elsewhere, as the one that led here.
+    if *focus == Some(Focus::Title)
+        && ui.input(|i| i.pointer.any_pressed() || i.pointer.any_released())
+    {
+        ui.ctx().request_repaint();
+    } else if focus.take_if(|focus| *focus == Focus::Title).is_some() {
         // Asked for before the field is shown, so that a screen reader speaks the field's name.
         ui.memory_mut(|memory| memory.request_focus(title_id));
     }

@@ -36,7 +36,7 @@ impl Tile {
 
 /// Each sheet: its file, the size of a tile in pixels, tiles in a row, and the tiles.
 fn sheets() -> Vec<(&'static str, [u32; 2], u32, Vec<Tile>)> {
-    let knee = || tile("knee-opening", 3);
+    let knee = |step| tile("layers-of-the-knee", step);
     let near =
         |name, step, distance: f64| tile(name, step).with("/camera/distance", json!(distance));
     vec![
@@ -66,11 +66,13 @@ fn sheets() -> Vec<(&'static str, [u32; 2], u32, Vec<Tile>)> {
             [440, 440],
             3,
             vec![
-                knee().in_style(json!("ink")),
-                knee().in_style(json!("pencil")),
-                knee().in_style(json!("blueprint")),
-                knee().in_style(json!("textbook")),
-                knee().in_style(json!({ "ghost": { "by": "facing", "strength": 1 } })),
+                knee(2).in_style(json!("ink")),
+                knee(2).in_style(json!("pencil")),
+                knee(2).in_style(json!("blueprint")),
+                knee(1).in_style(json!("textbook")),
+                near("knee-opening", 1, 2.2)
+                    .with("/camera/target", json!([0, 0, 0]))
+                    .in_style(json!({ "ghost": { "by": "facing", "strength": 1 } })),
                 tile("craniotomy", 3).in_style(
                     json!({ "preset": "atlas", "ghost": { "by": "cut", "strength": 1 } }),
                 ),
@@ -78,18 +80,18 @@ fn sheets() -> Vec<(&'static str, [u32; 2], u32, Vec<Tile>)> {
         ),
         (
             "web/figures.png",
-            [420, 320],
+            [380, 300],
             3,
             vec![
                 near("elbow-flexion", 0, 1.9),
                 near("elbow-flexion", 1, 1.9),
                 near("elbow-flexion", 2, 1.9),
-                tile("neck-overbent", 0),
-                tile("neck-overbent", 1),
-                tile("neck-overbent", 2),
-                tile("face-likeness", 0),
-                tile("face-likeness", 1),
-                tile("face-likeness", 2),
+                near("neck-overbent", 0, 1.9),
+                near("neck-overbent", 1, 1.9),
+                near("neck-overbent", 2, 1.9),
+                near("face-likeness", 0, 1.9),
+                near("face-likeness", 1, 1.9),
+                near("face-likeness", 2, 1.9),
             ],
         ),
     ]
@@ -120,7 +122,7 @@ pub(crate) fn readme(args: &[String]) -> Outcome {
                 changed(document, changes).map_err(|error| format!("{name}: {error}"))?;
             sheet.add(&fabrica, &document, step)?;
         }
-        sheet.write(&root().join(path), png::Compression::High)?;
+        sheet.write_whole(&root().join(path))?;
     }
     Ok(())
 }

@@ -103,10 +103,27 @@ impl Sheet {
         (size, pixels)
     }
 
-    pub(crate) fn write(&self, path: &Path, compression: png::Compression) -> Outcome {
+    /// Writes it with a palette.
+    fn write(&self, path: &Path, compression: png::Compression) -> Outcome {
         let (size, pixels) = self.pixels();
-        let bytes = encoded(size, &pixels, compression)
-            .map_err(|error| format!("{}: {error}", path.display()))?;
+        self.written(path, encoded(size, &pixels, compression))
+    }
+
+    /// Writes it with all of its colours: what ships with nothing may be larger.
+    pub(crate) fn write_whole(&self, path: &Path) -> Outcome {
+        let ([width, height], pixels) = self.pixels();
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, width, height);
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.set_compression(png::Compression::High);
+        let written = encoder
+            .write_header()
+            .and_then(|mut writer| writer.write_image_data(pixels.as_flattened()));
+        self.written(path, written.map(|()| bytes))
+    }
+
+    fn written(&self, path: &Path, bytes: Result<Vec<u8>, png::EncodingError>) -> Outcome {
+        let bytes = bytes.map_err(|error| format!("{}: {error}", path.display()))?;
         fs::write(path, &bytes).map_err(|error| format!("{}: {error}", path.display()))?;
         report(&format!(
             "{}: {} tiles, {} kB",
