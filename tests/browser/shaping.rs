@@ -183,7 +183,7 @@ fn a_clay_is_shaped_by_hand_and_handed_on() {
         assert!(off.mean < 0.2, "the same clay: {off:?}");
         other.assert_no_complaints().await;
 
-        // The graphics device is lost in the middle of a stroke: what was drawn until then is kept, and the hand goes on.
+        // The graphics device is lost in the middle of a stroke: what was drawn is kept, and the hand goes on.
         click(&other, "Shape the clay").await;
         lose_device_in_a_stroke(&other).await;
         let kept = document(&other).await["subject"]["clay"]["strokes"].clone();

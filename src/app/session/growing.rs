@@ -1,8 +1,5 @@
 //! A clay that is opened is seen at once as it starts, and then as far as its strokes are done (spec/sweepers.md, B.5).
 
-use super::session::Session;
-use crate::document::{Clay, SubjectRef};
-
 /// Strokes up to which a clay is done at once.
 const FEW: usize = 2;
 /// Strokes from one picture to the next, at first.
@@ -20,8 +17,13 @@ pub(super) struct Growing {
 }
 
 impl Growing {
+    /// Strokes of the picture that was asked for last.
+    pub(super) fn asked(&self) -> Option<usize> {
+        Some(self.asked?.0)
+    }
+
     /// Strokes of the next picture, once the one of `done` strokes is seen.
-    fn next(&mut self, done: Option<usize>, all: usize, now: f64) -> usize {
+    pub(super) fn next(&mut self, done: Option<usize>, all: usize, now: f64) -> usize {
         let until = match self.asked {
             None => {
                 self.step = FIRST;
@@ -45,53 +47,6 @@ impl Growing {
         };
         self.asked = Some((until, now));
         until
-    }
-}
-
-impl Session {
-    /// As much of a subject as is to be asked for now, and whether more of it follows: of a clay that was opened first
-    /// its start, then more and more of its strokes. One that begins with a file is read only once, and one that a hand
-    /// shapes meanwhile is wanted as it is.
-    pub(super) fn part_of(&mut self, subject: SubjectRef) -> (SubjectRef, bool) {
-        let SubjectRef::Clay(clay) = &subject else {
-            self.growing = None;
-            return (subject, false);
-        };
-        let all = clay.strokes.len();
-        let done = self.strokes_seen_of(clay);
-        let now = self.now;
-        let is_whole = self.history.is_in_drag() || clay.file().is_some();
-        let until = match &mut self.growing {
-            Some(growing) if !is_whole => growing.next(done, all, now),
-            _ => all,
-        };
-        if until >= all {
-            self.growing = None;
-            return (subject, false);
-        }
-        (SubjectRef::Clay(clay.cut(until as u32)), true)
-    }
-
-    /// Strokes of the clay that is seen, if it is this one as far as it goes.
-    fn strokes_seen_of(&self, clay: &Clay) -> Option<usize> {
-        match &self.shown_subject {
-            Some(SubjectRef::Clay(seen)) => {
-                let count = seen.strokes.len();
-                (seen.strokes_shared(clay) == Some(count)).then_some(count)
-            }
-            _ => None,
-        }
-    }
-
-    /// The part of the strokes of a clay that is opened which the load under way ends with.
-    pub(super) fn part_under_way(&self) -> f32 {
-        let asked = self.growing.and_then(|growing| growing.asked);
-        match (asked, &self.shown().subject) {
-            (Some((until, _)), SubjectRef::Clay(clay)) if !clay.strokes.is_empty() => {
-                until as f32 / clay.strokes.len() as f32
-            }
-            _ => 1.0,
-        }
     }
 }
 

@@ -96,6 +96,51 @@ impl Session {
         }
     }
 
+    /// As much of a subject as is to be asked for now, and whether more of it follows: of a clay that was opened first
+    /// its start, then more and more of its strokes. One that begins with a file is read only once, and one that a hand
+    /// shapes meanwhile is wanted as it is.
+    fn part_of(&mut self, subject: SubjectRef) -> (SubjectRef, bool) {
+        let SubjectRef::Clay(clay) = &subject else {
+            self.growing = None;
+            return (subject, false);
+        };
+        let all = clay.strokes.len();
+        let done = self.strokes_seen_of(clay);
+        let now = self.now;
+        let is_whole = self.history.is_in_drag() || clay.file().is_some();
+        let until = match &mut self.growing {
+            Some(growing) if !is_whole => growing.next(done, all, now),
+            _ => all,
+        };
+        if until >= all {
+            self.growing = None;
+            return (subject, false);
+        }
+        (SubjectRef::Clay(clay.cut(until as u32)), true)
+    }
+
+    /// Strokes of the clay that is seen, if it is this one as far as it goes.
+    fn strokes_seen_of(&self, clay: &Clay) -> Option<usize> {
+        match &self.shown_subject {
+            Some(SubjectRef::Clay(seen)) => {
+                let count = seen.strokes.len();
+                (seen.strokes_shared(clay) == Some(count)).then_some(count)
+            }
+            _ => None,
+        }
+    }
+
+    /// The part of the strokes of a clay that is opened which the load under way ends with.
+    fn part_under_way(&self) -> f32 {
+        let asked = self.growing.and_then(|growing| growing.asked());
+        match (asked, &self.shown().subject) {
+            (Some(until), SubjectRef::Clay(clay)) if !clay.strokes.is_empty() => {
+                until as f32 / clay.strokes.len() as f32
+            }
+            _ => 1.0,
+        }
+    }
+
     /// Asks for the document's subject although it is there.
     pub fn ask_for_subject_again(&mut self) {
         self.requested = None;
