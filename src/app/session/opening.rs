@@ -133,7 +133,7 @@ impl Session {
     /// The part of the strokes of a clay that is opened which the load under way ends with.
     fn part_under_way(&self) -> f32 {
         let asked = self.growing.and_then(|growing| growing.asked());
-        match (asked, &self.shown().subject) {
+        match (asked, self.shown().subject_shown()) {
             (Some(until), SubjectRef::Clay(clay)) if !clay.strokes.is_empty() => {
                 until as f32 / clay.strokes.len() as f32
             }
