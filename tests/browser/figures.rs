@@ -95,7 +95,9 @@ fn assert_alike(page: &RgbaImage, native: &RgbaImage, name: &str) {
 fn a_page_draws_figures_as_the_native_program_does() {
     with_browser(BrowserGpu::Software, |session| async move {
         let link = payload(ARM);
-        let tab = session.half_viewer(&format!("#{link}"), PAGE).await;
+        // The bar of its step lies under the picture.
+        let size = (PAGE.0, PAGE.1 + 60);
+        let tab = session.half_viewer(&format!("#{link}"), size).await;
         tab.settled().await;
         let server = &session.server;
         assert_eq!(count(server, "fabrica_figures_bg.wasm"), 1);
