@@ -28,7 +28,7 @@ fn tint_at(pos: vec3f, side: u32) -> vec4f {
 /// Linear RGB of a surface.
 fn albedo_of(edge: Sample, surface: Surface) -> vec3f {
     var texel = edge.texel;
-    if KEEPS_TISSUE {
+    if KEEPS_TISSUE || has_bodies != 0u {
         texel = texel_at(texture_from_rest(surface.tint_pos));
     }
     var albedo = transfer(texel).rgb;

@@ -65,16 +65,24 @@ fn cut_at(uvw: vec3f, map: Differential, to_eye: vec3f) -> Cut {
     return Cut(normal, weight, slope, is_cut);
 }
 
+/// How far beneath the surface that hidden tissue leaves bare its colour is taken from, voxels.
+const BARED_DEPTH: f32 = 0.7;
+
 /// The surface at a sample. `to_eye` is a unit vector.
 fn surface_at(edge: Sample, uvw: vec3f, map: Differential, cut: Cut, to_eye: vec3f) -> Surface {
     // Gradient of the value carried over by the transposed Jacobian ...
     var gradient = gradient_at(uvw);
     var body_share = 0.0;
+    var tint_pos = edge.pos;
     if has_bodies != 0u {
         // The surface of a body is the surface of its segment, whatever the values there are.
         let own = body_gradient_at(edge.pos);
         gradient = mix(gradient, own / look.table_scale, smoothstep(0.03, 0.15, length(own)));
-        body_share = body_weight(body_at(edge.pos));
+        let shares = body_at(edge.pos);
+        body_share = body_weight(shares);
+        // The values half a voxel around a border are those of both sides: what is hidden gives no colour.
+        let bared = smoothstep(0.05, 0.25, shares.w) * smoothstep(0.03, 0.15, length(own));
+        tint_pos += own / max(length(own), 1e-9) * (bared * BARED_DEPTH * subject.detail);
     }
     let carried = carried_over(map.jacobian, gradient);
     let steepness = length(gradient) * look.table_scale;
@@ -89,7 +97,6 @@ fn surface_at(edge: Sample, uvw: vec3f, map: Differential, cut: Cut, to_eye: vec
     normal = normalize(mix(normal, cut.normal, cut_weight) + to_eye * 1e-5);
     surfaceness = max(surfaceness, cut_weight);
     // Both sides of the surface of kept tissue take their normal from it.
-    var tint_pos = edge.pos;
     var lift = 0.0;
     if KEEPS_TISSUE {
         let kept = kept_surface(edge.pos, map.path, map.jacobian, to_eye);

@@ -77,8 +77,9 @@ impl Tube {
     }
 }
 
-/// How the tube is drawn alone: nothing else is kept, or nothing else is a body that is seen, or only its values are.
-const ALONE: [(&str, &str); 3] = [
+/// How the tube is drawn alone: nothing else is kept, or nothing else is a body that is seen, or all else is hidden, or
+/// only its values are seen.
+const ALONE: [(&str, &str); 4] = [
     (
         "kept",
         r##""look":{"transfer":[{"value":19,"color":"#ffffff","opacity":0},{"value":21,"color":"#ffffff","opacity":1}],"background":"none"},
@@ -88,6 +89,11 @@ const ALONE: [(&str, &str); 3] = [
         "a body",
         r##""look":{"transfer":[{"value":19,"color":"#ffffff","opacity":0},{"value":21,"color":"#ffffff","opacity":1}],"background":"none",
         "segments":{"tube":1,"rest":0}}"##,
+    ),
+    (
+        "the rest hidden",
+        r##""look":{"transfer":[{"value":19,"color":"#ffffff","opacity":0},{"value":21,"color":"#ffffff","opacity":1}],"background":"none",
+        "segments":{"rest":0}}"##,
     ),
     (
         "by value",
