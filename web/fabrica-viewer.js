@@ -10,7 +10,7 @@
 // Properties and methods: steps, step, next(), previous(), play(), pause(), setParam(pointer, value), reset(),
 // present(), toDataURL() (a Promise). Events, which bubble: ready, stepchange, paramchange, viewchange, error.
 // The content of the element is its poster: it stays until the first whole picture is there, and for ever where there is no
-// WebGPU. No inline script, no cookie, no request to a third party; everything is taken from beside this file.
+// WebGPU, with title, caption and steps as text under it. No inline script, no cookie, no request to a third party; everything is taken from beside this file.
 
 /** Removal counts after this long, milliseconds: an element that is moved in its document is removed and put in again. */
 const GONE = 1000;
@@ -22,11 +22,6 @@ const STYLE = `
   .poster, ::slotted(img) { display: block; width: 100%; height: auto; }
   .tap { position: absolute; inset: 0 0 auto; margin: 8px auto; min-width: 44px; min-height: 44px; padding: 0 16px; font: inherit; }
 `;
-
-let adapter;
-/** Whether there is a device to draw with; asked once. */
-const canDraw = () =>
-  (adapter ??= Promise.resolve(navigator.gpu?.requestAdapter()).then(Boolean, () => false));
 
 class FabricaViewer extends HTMLElement {
   static observedAttributes = ["src", "step", "controls", "alt", "lang", "poster"];
@@ -44,6 +39,7 @@ class FabricaViewer extends HTMLElement {
     clearTimeout(this.#leaving);
     if (this.#isConnected) return this.#embed?.dress();
     this.#isConnected = true;
+    if (this.#wanted === null && this.hasAttribute("step")) this.step = this.getAttribute("step");
     this.#build();
     const loading = this.getAttribute("loading");
     if (loading === "tap") this.#offer();
@@ -67,8 +63,13 @@ class FabricaViewer extends HTMLElement {
     if (name === "src") {
       if (this.#embed) this.#embed.open();
       else if (this.#isStarted) this.#open();
-    } else if (name === "step") this.step = after;
-    else this.#embed?.dress();
+    } else if (name === "step") {
+      // Without the attribute it stays where it is.
+      if (after !== null) this.step = after;
+    } else {
+      if (name === "poster" || name === "alt") this.#heedPoster();
+      this.#embed?.dress();
+    }
   }
 
   /** Titles and captions of the steps; step N of the document is entry N − 1. */
@@ -125,12 +126,24 @@ class FabricaViewer extends HTMLElement {
     sheet.replaceSync(STYLE);
     this.#root.adoptedStyleSheets = [sheet];
     this.#root.replaceChildren(document.createElement("slot"));
-    if (!this.hasAttribute("poster")) return;
-    const poster = new Image();
-    poster.className = "poster";
-    poster.src = this.getAttribute("poster");
-    poster.alt = this.getAttribute("alt") ?? "";
-    this.#root.prepend(poster);
+    this.#heedPoster();
+  }
+
+  /** The image of `poster` stands before the content, and later in what covers the picture. */
+  #heedPoster() {
+    const address = this.getAttribute("poster");
+    let image = this.#root.querySelector("img.poster");
+    if (address === null) image?.remove();
+    else {
+      if (!image) {
+        image = new Image();
+        image.className = "poster";
+        (this.#root.querySelector(".cover") ?? this.#root).prepend(image);
+      }
+      if (image.getAttribute("src") !== address) image.src = address;
+      image.alt = this.getAttribute("alt") ?? "";
+    }
+    this.#embed?.heedPoster();
   }
 
   /** Starts when the element is about to be seen. */
@@ -162,8 +175,6 @@ class FabricaViewer extends HTMLElement {
     this.#watch?.disconnect();
     this.#root.querySelector(".tap")?.remove();
     try {
-      const says = this.textContent.trim() !== "" && (this.hasAttribute("poster") || this.querySelector("img"));
-      if (says && !(await canDraw())) throw new Error("This browser has no WebGPU, which the picture is drawn with.");
       const { Embed } = await import("./reader/embed.js");
       if (start !== this.#start) return;
       this.#embed = new Embed(this, this.#root, this.#wanted);

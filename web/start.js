@@ -71,7 +71,7 @@ function showsTheHead() {
 
 /** The part that a document beside the page needs, which the address names; null where only the viewer can tell. */
 async function partOfDocument() {
-  const name = location.hash.length > 1 ? null : new URLSearchParams(location.search).get("doc");
+  const name = /^#[\w-]{16,}/.test(location.hash) ? null : new URLSearchParams(location.search).get("doc");
   if (name === null || !URL.canParse(name, location.href)) return null;
   const address = new URL(name, location.href);
   if (address.origin !== location.origin) return null;

@@ -29,6 +29,7 @@ use crate::assets::{Assets, Bending, SegmentationsExpected, TissueWork, Want};
 use crate::clay::Writing;
 use crate::data::{Resources, Site, SubjectBuilder, Surface};
 use crate::document::{Document, SegmentsRef, SubjectRef};
+use crate::link::Link;
 use crate::load::LabelFile;
 use crate::render::{Clock, Gpu, RenderNotice};
 
@@ -41,9 +42,9 @@ const STORED_CONTRAST: &str = "contrast";
 
 /// How the app starts.
 pub struct Start {
-    /// The document to open; with none, the one kept from the last time, else an empty one.
-    pub document: Option<Document>,
-    /// A link or JSON; goes before `document`. Where it is broken a message tells so, and an empty document is opened.
+    /// The document to open, and its step; with none, the one kept from the last time, else an empty one.
+    pub link: Option<Link>,
+    /// A link or JSON; goes before `link`. Where it is broken a message tells so, and an empty document is opened.
     pub text: Option<String>,
     /// The document that was asked for and could not be had: a message tells so, and an empty one is opened.
     pub missing: Option<MissingDocument>,
@@ -165,7 +166,7 @@ impl App {
         session.has_title = is_wished(STORED_TITLE);
         // Who comes with a document has been here before, or comes to look.
         let is_first = start.text.is_none()
-            && start.document.is_none()
+            && start.link.is_none()
             && start.missing.is_none()
             && services.stored(STORED_DOCUMENT).is_none();
         session.has_less_motion = services.wants_less_motion();
@@ -173,9 +174,9 @@ impl App {
         session.has_told_slow = services.stored(STORED_SLOW).is_some();
         session.has_hint = is_first && services.stored(STORED_HINT).is_none();
         let earlier = services.stored(STORED_DOCUMENT);
-        match (start.text, start.document, start.missing) {
+        match (start.text, start.link, start.missing) {
             (Some(text), _, _) => session.open_text(&text),
-            (None, Some(document), _) => session.open_document(document, 0),
+            (None, Some(link), _) => session.open_link(link),
             (None, None, Some(missing)) => {
                 let (text, details) = missing.in_words();
                 session.notify(Gravity::Error, text, details);

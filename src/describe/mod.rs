@@ -33,5 +33,5 @@ pub use names::{has_patient, segment, subject};
 pub use operations::{Extent, Operation};
 pub use sight::{Seen, Sight};
 pub use snippet::{Snippet, snippet};
-pub use text::{Description, Measured, describe};
+pub use text::{Description, Measured, describe, describe_shown};
 pub use view::{Sides, seen_from, side_letters};

@@ -54,8 +54,21 @@ pub fn describe(
     measured: &Measured,
     lang: Lang,
 ) -> Result<Description, DocumentError> {
+    let shown = document.lesson()?.at_step(step)?;
+    describe_shown(document, (step, shown), measured, lang)
+}
+
+/// The same of what the document shows on the way to a step.
+///
+/// # Errors
+/// [`DocumentError::NoSuchStep`].
+pub fn describe_shown(
+    document: &Document,
+    (step, shown): (usize, &Illustration),
+    measured: &Measured,
+    lang: Lang,
+) -> Result<Description, DocumentError> {
     let lesson = document.lesson()?;
-    let shown = lesson.at_step(step)?;
     let whole = document.illustration();
     let own = step.checked_sub(1).and_then(|i| whole.steps.get(i));
     let (title, legend, alt) = match own {

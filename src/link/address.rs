@@ -58,9 +58,10 @@ pub fn decode(text: &str) -> Result<Link, LinkError> {
     })
 }
 
-/// True if an address holds a text that is meant as a payload. A page that is opened without one shows its start.
+/// True if an address holds a payload that is whole. It goes before all else that the address names; what is none may
+/// be the mark of a place in a page (`#top`).
 pub fn has_payload(text: &str) -> bool {
-    find(text.trim()).is_some()
+    find(text.trim()).is_some_and(|(payload, _)| is_whole(payload))
 }
 
 /// The payload in a text, and what follows it.
@@ -72,9 +73,8 @@ fn find(text: &str) -> Option<(&str, &str)> {
     let query = before.split_once('?').map(|(_, query)| query);
     let from_query = query.and_then(|query| {
         let start = query.split('&').find_map(|pair| pair.strip_prefix("s="))?;
-        // The rest of the query may hold the step.
-        let at = start.as_ptr() as usize - query.as_ptr() as usize;
-        cut(query.get(at..)?)
+        // The step may stand anywhere in the query.
+        cut(start).map(|(payload, _)| (payload, query))
     });
     let from_fragment = fragment.and_then(cut);
     let bare = (fragment.is_none() && query.is_none() && !text.contains([':', '/', '.']))

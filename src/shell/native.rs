@@ -25,7 +25,8 @@ use crate::assets::{
     BendAnswer, BendRequest, LoadEvent, Role, SegmentationsExpected, Source, Want,
 };
 use crate::data::VolumeLimits;
-use crate::document::{Clay, Document, RawVoxels, Reading, is_drawn_name};
+use crate::document::{Clay, RawVoxels, Reading, is_drawn_name};
+use crate::link::Link;
 use crate::load::{FileSet, is_field, mesh_among, read_field};
 use crate::render::Gpu;
 use crate::subjects::mesh_names;
@@ -36,8 +37,8 @@ const MAX_DOCUMENT_BYTES: u64 = 2 * 1024 * 1024;
 /// What a window opens with.
 #[derive(Clone, Debug, Default)]
 pub struct Opening {
-    /// The document to open; without it, the one stored by the last run.
-    pub document: Option<Document>,
+    /// The document to open, and its step; without it, the one stored by the last run.
+    pub link: Option<Link>,
     /// Folder that the document's relative addresses start from; the working folder if none is given.
     pub folder: Option<PathBuf>,
     /// A file that takes the place of the document's subject.
@@ -100,14 +101,14 @@ pub fn view(opening: Opening) -> Result<(), WindowError> {
         let mut services = NativeServices::new(cc.egui_ctx.clone(), limits, opening.folder);
         #[cfg(debug_assertions)]
         services.watch_shaders();
-        let document = opening.document.as_ref();
-        let in_document = document.and_then(|document| document.illustration().subject.reading());
+        let link = opening.link.as_ref();
+        let in_document = link.and_then(|link| link.document.illustration().subject.reading());
         let reading = opening.reading.over(in_document);
         let subject = opening
             .subject
             .map(|path| services.start_file(path, true, reading));
         let start = Start {
-            document: opening.document,
+            link: opening.link,
             text: None,
             missing: None,
             subject,
@@ -812,6 +813,7 @@ impl Services for NativeServices {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::document::Document;
     use std::time::Duration;
 
     fn wait_until(mut is_so: impl FnMut() -> bool) {

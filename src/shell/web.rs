@@ -145,7 +145,7 @@ impl Viewer {
                 }
             }
             let start = Start {
-                document: None,
+                link: None,
                 text,
                 missing,
                 subject: None,
@@ -419,7 +419,7 @@ fn address_text() -> Option<String> {
 fn document_address() -> Option<String> {
     let url = here()?;
     let wanted = url.search_params().get("doc")?;
-    if address_text().is_some() {
+    if link::has_payload(&url.href()) {
         return None;
     }
     Url::new_with_base(&wanted, &url.href())

@@ -465,7 +465,7 @@ impl Window {
             .renderer(WgpuTestRenderer::from_setup(WgpuSetup::Existing(setup)))
             .build_eframe(|cc| {
                 let start = Start {
-                    document: None,
+                    link: None,
                     text,
                     missing,
                     subject: instead,

@@ -886,37 +886,53 @@ fn no_frame_is_blank_from_the_poster_to_the_picture() {
     });
 }
 
-/// Where there is no WebGPU the poster stays and nothing is fetched; without a poster there are words.
+/// Where there is no WebGPU the poster stays, and title, caption and steps are there as text.
 #[test]
 fn an_embed_without_webgpu_gives_words() {
     with_browser(BrowserGpu::None, |session| async move {
         let poster = "<img src=icon.svg alt=Poster><p>What is to be seen.</p>";
-        let tab = open(
-            &session,
-            &[format!("{}{poster}", lesson("")), lesson("")],
-            "",
-            (320, 700),
-        )
-        .await;
-        tab.wait_until("told.filter(([name]) => name === 'error').length === 2", 60)
+        let embeds = [
+            format!("{}{poster}", lesson("")),
+            lesson("poster=icon.svg"),
+            lesson(""),
+        ];
+        let tab = open(&session, &embeds, "", (320, 1400)).await;
+        tab.wait_until("told.filter(([name]) => name === 'error').length === 3", 60)
             .await;
-        assert!(tab.eval::<bool>("e0.querySelector('img').checkVisibility() && e0.querySelector('p').checkVisibility()").await);
-        let text: String = tab.eval("e1.shadowRoot.textContent").await;
-        for wanted in [
-            "Opening a cube: It is whole.",
-            "Apart: The halves part.",
-            "WebGPU",
-        ] {
-            assert!(text.contains(wanted), "{wanted}: {text}");
-        }
-        let alone = open_poster(&session, "", poster).await;
-        alone.wait_until("told.length > 0", 60).await;
-        let wasm = "performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('.wasm')).length";
-        assert_eq!(
-            alone.eval::<u32>(wasm).await,
-            0,
-            "no program is fetched for nothing"
+        let own =
+            "e0.querySelector('img').checkVisibility() && e0.querySelector('p').checkVisibility()";
+        assert!(tab.eval::<bool>(own).await);
+        tab.picture("embed_without_webgpu").await;
+        // The stage is as high as a picture where it shows a poster, and is not there without one.
+        let heights: Vec<f64> = tab
+            .eval("[e0, e1, e2].map((it) => it.shadowRoot.querySelector('.stage').getBoundingClientRect().height)")
+            .await;
+        assert!(
+            heights[0] > 100.0 && heights[1] > 100.0 && heights[2] == 0.0,
+            "{heights:?}"
         );
+        for embed in ["e0", "e1", "e2"] {
+            let text: String = tab
+                .eval(&format!(
+                    "{embed}.shadowRoot.querySelector('.words').innerText"
+                ))
+                .await;
+            for wanted in [
+                "Opening a cube: It is whole.",
+                "Apart: The halves part.",
+                "WebGPU",
+            ] {
+                assert!(text.contains(wanted), "{embed}: {wanted}: {text}");
+            }
+        }
+        let seen = "e1.shadowRoot.querySelector('img.poster')?.checkVisibility() ?? false";
+        assert!(tab.eval::<bool>(seen).await, "the poster of the attribute");
+        tab.eval::<bool>("(e1.removeAttribute('poster'), true)")
+            .await;
+        assert!(!tab.eval::<bool>(seen).await, "it goes with the attribute");
+        tab.eval::<bool>("(e1.setAttribute('poster', 'icon.svg'), true)")
+            .await;
+        assert!(tab.eval::<bool>(seen).await, "and comes with it");
     });
 }
 
@@ -938,10 +954,24 @@ fn wrong_embeds_say_so_and_leave_the_others_running() {
             "src=\"javascript:alert(1)\">".to_owned(),
             "src=hostile.json controls>".to_owned(),
             lesson("step=77"),
+            lesson("loading=tap step=abc"),
+            lesson("loading=tap step=1"),
         ];
         let tab = open_coarse(&session, &embeds, "", (320, 900)).await;
-        tab.wait_until("told.filter(([name]) => name === 'error').length >= 4", 120)
+        tab.wait_until("told.filter(([name]) => name === 'error').length >= 5", 120)
             .await;
+        // A step counts before there is a picture. A wrong one is told, one that is taken away is none.
+        let of = "told.filter(([name, id]) => name === 'error' && id === 'e6')";
+        let told: Vec<String> = tab
+            .eval(&format!("{of}.map(([, , detail]) => detail.message)"))
+            .await;
+        assert_eq!(told, ["abc is not the number of a step"]);
+        let steps: Vec<u32> = tab
+            .eval(&format!(
+                "(e6.removeAttribute('step'), e7.next(), [e6.step, e7.step, {of}.length])"
+            ))
+            .await;
+        assert_eq!(steps, [0, 2, 1]);
         for index in 4..6 {
             tab.eval::<bool>(&format!("(e{index}.scrollIntoView(), true)"))
                 .await;

@@ -302,6 +302,9 @@ fn mangled_links_are_read() {
             format!("{own}/?s={link}&step=2&fbclid=x"),
             format!("#{link}&step=2?a=b"),
             format!("{own}/#{link}?a=b&step=2"),
+            format!("{own}/?s=1AAAA#{link}&step=2"),
+            format!("{own}/?step=2&s={link}#top"),
+            format!("{own}/?doc=none.json#{link}&step=2"),
         ];
         let embeds: Vec<String> = forms
             .iter()
@@ -313,6 +316,11 @@ fn mangled_links_are_read() {
             .eval("Promise.all([import('./reader/embed.js'), import('./reader/engine.js')]).then(async ([{ sourceOf }, { bindings }]) => { const { outline_of: outline } = await bindings(); return [...document.querySelectorAll('fabrica-viewer')].map((it) => { try { return JSON.parse(outline(sourceOf(it.getAttribute('src')).text, location.href)).step; } catch (error) { return String(error); } }); })")
             .await;
         assert_eq!(found, vec![serde_json::json!(2); forms.len()]);
+        // A place in a page is no payload.
+        let address: String = tab
+            .eval("import('./reader/embed.js').then(({ sourceOf }) => sourceOf('?doc=a/lesson.json&step=1#top').address)")
+            .await;
+        assert_eq!(address, format!("{own}/a/lesson.json"));
         // The same for the address of a frame.
         for rest in [
             format!("?s={link}&amp;step=2"),

@@ -192,7 +192,9 @@ fn history_and_reload_restore_documents() {
             "lesson.json",
             br#"{"fabrica":1,"title":"four","subject":{"builtin":"bar"}}"#.to_vec(),
         );
-        let from_file = session.coarse_viewer("?doc=lesson.json", (420, 360)).await;
+        let from_file = session
+            .coarse_viewer("?doc=lesson.json#top", (420, 360))
+            .await;
         from_file.wait_until(&is("four"), 30).await;
         let called = "document.title === 'four \u{2013} Fabrica'";
         from_file.wait_until(called, 30).await;

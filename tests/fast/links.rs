@@ -585,6 +585,7 @@ fn addresses_hold_payloads_in_many_ways() {
         (format!("https://a.org/?s={p}"), 0),
         (format!("https://a.org/?s={p}&step=2"), 2),
         (format!("?lang=de&s={p}&utm=1&step=2"), 2),
+        (format!("https://a.org/?step=3&s={p}"), 3),
         (format!("https://a.org/?s={p}#top"), 0),
         (format!("https://a.org/#{p}&utm_source=mail"), 0),
         (format!("https://a.org/#{p}?forced=1&step=4"), 4),
@@ -600,6 +601,8 @@ fn addresses_hold_payloads_in_many_ways() {
         assert_eq!((&read.document, read.step), (&expected, step), "of {text}");
         assert!(link::has_payload(&text), "{text} has one");
     }
+    // The mark of a place in a page stands in nobody's way.
+    assert!(!link::has_payload("https://a.org/?doc=a.json#top"));
     assert_eq!(link::fragment(&expected, 0), format!("#{p}"));
     assert_eq!(link::fragment(&expected, 3), format!("#{p}&step=3"));
 }

@@ -360,6 +360,13 @@ fn bad_usage_is_2() {
         let outcome = fabrica(args);
         assert_eq!(outcome.status, 2, "{args:?}: {}", outcome.err);
         assert_eq!(outcome.out, "", "{args:?}");
+        let lines: Vec<&str> = outcome.err.lines().collect();
+        assert_eq!(lines.len(), 1, "{args:?}: {}", outcome.err);
+        assert!(lines[0].starts_with("error: "), "{}", lines[0]);
+    }
+    let missing = fabrica(&["render"]).err;
+    for told in ["<DOC>", "--output", "usage: fabrica render"] {
+        assert!(missing.contains(told), "{told}: {missing}");
     }
     assert_eq!(fabrica(&["--help"]).status, 0);
     assert!(
@@ -855,6 +862,18 @@ fn pictures_are_described_in_words() {
         "{one}"
     );
     assert_eq!(one.lines().count(), 1, "{one}");
+    // Within a passage a plate says how far it is.
+    let plate = folder.path().join("plate.svg");
+    let size = ["--size", "64x64", "--samples", "1"];
+    let moment = ["--step", "1", "--time", "0.5", "-o", text(&plate)];
+    fabrica(&[&["render", path][..], &size, &moment].concat()).ok();
+    let plate = std::fs::read_to_string(&plate).expect("a plate");
+    let part = plate.split_once("Die Schicht ist abgerollt, ");
+    let part = part.and_then(|(_, rest)| rest.split_once(' ')?.0.parse::<u32>().ok());
+    assert!(
+        part.is_some_and(|part| (20..80).contains(&part)),
+        "{part:?}"
+    );
     let named = format!("{}&step=1", link.trim());
     assert_eq!(fabrica(&["describe", &named, "--lang", "en"]).ok().out, one);
     let piped = fabrica_with(

@@ -12,6 +12,9 @@ import { nearest, wordsOf } from "./words.js";
 /** Pixels of a picture at most; it is scaled up beyond. */
 const MOST_PIXELS = 4.2e6;
 
+/** A fragment that can be a payload: letters of base64url, and many. A shorter one is a place in a page (`#top`). */
+const PAYLOAD = /^[\w-]{16,}/;
+
 /** Where an embed stands that has no picture yet. */
 const NOWHERE = { step: 0, position: 0, playing: false, strayed: false, values: [], troubles: [] };
 
@@ -29,17 +32,17 @@ export function sourceOf(src) {
     .replace(/^%23/, "#")
     .replace(/%26step(=|%3D)/gi, "&step=");
   if (text === "") return { text: '{"fabrica":1}' };
-  const hash = text.indexOf("#");
-  const query = new URLSearchParams(text.split("#")[0].split("?")[1] ?? "");
-  if (query.has("s")) return { text: `#${query.get("s")}${query.has("step") ? `&step=${query.get("step")}` : ""}` };
-  // A payload has no question mark: what a platform has put behind it is none of ours.
-  if (hash >= 0 && hash + 1 < text.length) return { text: text.slice(hash).replace(/\?[^&]*/g, "") };
+  const [page, fragment = ""] = text.split(/#(.*)/);
+  const query = new URLSearchParams(page.split("?")[1] ?? "");
+  // Which of the two holds the document the program finds out, as for every address.
+  if (query.has("s") || PAYLOAD.test(fragment)) return { text };
   if (query.has("doc")) {
-    const page = new URL(text, document.baseURI);
-    return { address: new URL(query.get("doc"), page).href, step: Number(query.get("step") ?? NaN) };
+    const base = new URL(text, document.baseURI);
+    return { address: new URL(query.get("doc"), base).href, step: Number(query.get("step") ?? NaN) };
   }
-  // A payload without its mark: letters of base64url only, and long.
-  if (/^[A-Za-z0-9_-]{16,}(&step=\d+)?$/.test(text)) return { text: `#${text}` };
+  if (fragment !== "") return { text };
+  // A payload without its mark.
+  if (/^[\w-]{16,}(&step=\d+)?$/.test(text)) return { text: `#${text}` };
   return { address: text };
 }
 
@@ -84,7 +87,7 @@ export class Embed {
   constructor(host, root, step) {
     this.#host = host;
     this.#root = root;
-    this.#wanted = step ?? (host.hasAttribute("step") ? Number(host.getAttribute("step")) : null);
+    this.#wanted = step;
   }
 
   // ---- What the element has ----
@@ -310,7 +313,7 @@ export class Embed {
         if (isStale()) return;
         source.text = await fetchText(base, source.address);
       }
-      askEarly(partOf(source.text, base));
+      if (navigator.gpu) askEarly(partOf(source.text, base));
       const { outline_of: outlineOf } = await reading;
       const outline = JSON.parse(outlineOf(source.text, base));
       if (isStale()) return;
@@ -336,8 +339,11 @@ export class Embed {
   #join(engine, source, base) {
     const outline = this.#outline;
     this.#build();
-    this.#parts.view.classList.remove("words-only");
-    this.#parts.words.hidden = true;
+    const { stage, view, words } = this.#parts;
+    view.classList.remove("words-only");
+    words.hidden = true;
+    stage.hidden = false;
+    stage.tabIndex = 0;
     const wanted = [this.#wanted, source.step, outline.step].find((step) => Number.isFinite(step));
     this.#wanted = null;
     const step = Math.min(Math.max(Math.round(wanted), 0), outline.steps.length);
@@ -402,10 +408,11 @@ export class Embed {
     clearTimeout(this.#timer);
   }
 
-  /** Nothing is fetched from another host than those of the page and of this program before the reader agrees. */
+  /** Nothing is fetched from another host than the page's before the reader agrees. */
   async #consent(address) {
     const { origin, host } = new URL(address);
-    if (["null", self.origin, new URL(import.meta.url).origin].includes(origin)) return;
+    // What has no origin (`data:`) comes from nowhere.
+    if (["null", location.origin].includes(origin)) return;
     this.#build();
     this.#isTold = true;
     await new Promise((agree) => this.#ask(this.#words.host(host), this.#words.fetch, agree));
@@ -457,11 +464,11 @@ export class Embed {
     stage.append(layer, hint);
     const cover = make("div", "cover");
     cover.append(...(image ? [image] : []), slot);
-    cover.classList.toggle("is-poster", image !== null || this.#host.querySelector(":scope > img") !== null);
     stage.append(cover);
     view.append(stage, words, legend, controls, said);
     this.#root.replaceChildren(view, poster);
     this.#parts = { view, stage, layer, hint, words, controls, legend, said, poster, cover };
+    this.heedPoster();
     this.#parts.captions = new Captions(layer);
     this.#parts.marks = new Marks(layer);
     this.#parts.bar = new Controls(controls, this);
@@ -479,6 +486,12 @@ export class Embed {
     stage.addEventListener("pointerenter", () => this.#engine?.use(this), { passive: true });
     document.fonts?.ready.then(() => this.#parts.captions?.measure());
     this.#watches = [() => sized.disconnect(), () => seen.disconnect(), () => this.#parts.hands.end()];
+  }
+
+  /** Whether there is an image to cover the picture with until the picture is there. */
+  heedPoster() {
+    const { cover } = this.#parts;
+    cover?.classList.toggle("is-poster", (cover.querySelector("img") ?? this.#host.querySelector(":scope > img")) !== null);
   }
 
   get #words() {
@@ -710,17 +723,20 @@ export class Embed {
     this.#wake();
   }
 
-  /** Title, caption and steps as text, where nothing can be drawn. */
+  /** Poster, title, caption and steps as text, where nothing can be drawn. */
   #showWords(outline) {
     this.#build();
-    const { words } = this.#parts;
+    const { cover, stage, view, words } = this.#parts;
+    stage.hidden = !cover.classList.contains("is-poster");
+    stage.tabIndex = -1; // There is nothing to turn.
     const line = ({ title, legend }) => [title, legend].filter(Boolean).join(": ");
     const list = document.createElement("ol");
     list.append(...outline.steps.map((step) => Object.assign(document.createElement("li"), { textContent: line(step) })));
     const text = (content) => Object.assign(document.createElement("p"), { textContent: content });
     words.replaceChildren(text(line(outline)), list, text(this.#words.noGpu));
     words.hidden = false;
-    this.#parts.view.classList.add("words-only");
+    view.classList.remove("ready");
+    view.classList.add("words-only");
   }
 
   /** What went wrong is told in the embed and by `error`. */

@@ -44,10 +44,11 @@ export const STYLE = `
     border-radius: 10px; font-size: 13px; background: #000c; color: #fff; opacity: 0; pointer-events: none; }
   .ready .stage:focus-visible .hint, .ready .stage.inside .hint { opacity: 1; }
   @media (hover: hover) { .ready .stage:hover .hint { opacity: 1; } }
-  .ready .cover, .ready ~ .poster, .words-only ~ .poster { display: none; }
+  .ready .cover, .ready ~ .poster { display: none; }
   .frame:not(.ready) :is(.controls, .legend) { display: none; }
   .words { padding: 8px 12px; white-space: pre-line; }
-  .words-only .stage { display: none; }
+  .words-only :is(canvas, .layer, .hint) { display: none; }
+  .words-only .stage { cursor: auto; }
   .legend { margin: 0; padding: 8px 12px; min-height: 1.4em; }
   .controls { display: flex; flex-wrap: wrap; gap: 6px 14px; padding: 6px; }
   .controls > div { display: flex; flex-wrap: wrap; align-items: center; gap: 4px; min-width: 0; }

@@ -17,7 +17,7 @@ use crate::document::figure::Figure;
 use crate::document::{
     Clay, Document, Edit, FIGURE_FRONT, Notice, NoticeKind, Reading, SubjectRef,
 };
-use crate::link;
+use crate::link::{self, Link};
 
 /// True if a subject that was asked for, or is shown, is that of the document.
 fn is_of(one: &Option<SubjectRef>, subject: &SubjectRef) -> bool {
@@ -59,25 +59,20 @@ impl Session {
         if self.paste_templates(trimmed) {
             return;
         }
-        let result = if trimmed.starts_with('{') {
-            Document::from_json(trimmed)
-                .map(|document| (document, 0))
-                .map_err(|error| error.to_string())
-        } else {
-            link::decode(trimmed)
-                .map(|link| (link.document, link.step))
-                .map_err(|error| error.to_string())
-        };
-        match result {
-            Ok((document, step)) => {
-                let last = document.step_count();
-                self.open_document(document, step);
-                if step > last {
-                    let text = fill(w().step_too_far, &[&step, &last]);
-                    self.notify(Gravity::Warning, text, "");
-                }
-            }
+        match link::document_of(trimmed) {
+            Ok(link) => self.open_link(link),
             Err(error) => self.notify(Gravity::Error, fill(w().cannot_be_opened, &[&error]), ""),
+        }
+    }
+
+    /// Opens the document of a link at the step that the link names; a message tells of a step that is not there.
+    pub fn open_link(&mut self, link: Link) {
+        let Link { document, step } = link;
+        let last = document.step_count();
+        self.open_document(document, step);
+        if step > last {
+            let text = fill(w().step_too_far, &[&step, &last]);
+            self.notify(Gravity::Warning, text, "");
         }
     }
 

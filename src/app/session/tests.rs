@@ -4,13 +4,14 @@ use glam::Vec3;
 use serde_json::{Value, json};
 
 use super::{
-    Command, Effect, Focus, Found, Gravity, LinkChange, Place, Question, RawCommand, See, Session,
-    Tab, Ticket, TissueCommand, Tool,
+    Command, Effect, Focus, Found, Gravity, LinkChange, Notice, Place, Question, RawCommand, See,
+    Session, Tab, Ticket, TissueCommand, Tool,
 };
 use crate::app::session::RecentChange;
 use crate::assets::RawQuestion;
 use crate::clay::MeshFormat;
 use crate::document::{Document, Edit, SubjectRef, TemplateKind};
+use crate::link::Link;
 
 /// A document with two templates, one of a group, and a lesson of two steps.
 const LESSON: &str = r#"{
@@ -306,6 +307,19 @@ fn a_lesson_has_no_tools_of_authors() {
         assert_eq!((session.step(), session.tool()), (2, kept));
         run(&mut session, command);
         assert_eq!(session.step(), 2, "taking {tool:?} stays at the step");
+    }
+}
+
+#[test]
+fn a_link_opens_at_its_step_and_tells_of_one_that_is_not_there() {
+    for (step, shown) in [(0, 0), (1, 1), (9, 2)] {
+        let mut session = growing();
+        let document = Document::from_json(LESSON).expect("valid");
+        session.open_link(Link { document, step });
+        assert_eq!(session.step(), shown);
+        let tells = |notice: &&Notice| notice.message.contains("step 9");
+        let told = session.notices.shown().filter(tells).count();
+        assert_eq!(told, usize::from(step == 9), "of step {step}");
     }
 }
 

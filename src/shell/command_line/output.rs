@@ -21,6 +21,15 @@ pub(super) fn one_line(message: &dyn fmt::Display) -> String {
         .collect()
 }
 
+/// What the reader of the arguments says about wrong ones, as one line: its first paragraph, and how the command is used.
+pub(super) fn misused(said: &str) -> String {
+    let fault = said.split("\n\n").next().unwrap_or(said);
+    let fault: Vec<&str> = fault.lines().map(str::trim).collect();
+    let usage = said.lines().find_map(|line| line.strip_prefix("Usage: "));
+    let usage = usage.map_or(String::new(), |usage| format!("; usage: {usage}"));
+    one_line(&format!("{}{usage}", fault.join(" ")))
+}
+
 pub(super) fn notice(message: impl fmt::Display) {
     eprintln!("notice: {}", one_line(&message));
 }

@@ -16,7 +16,7 @@ use super::stop;
 use super::subject::{report_drawing, subject_of};
 use super::svg::{Pen, Plate};
 use crate::app::Lettering;
-use crate::describe::{Lang, Measured, Sight, describe};
+use crate::describe::{Lang, Measured, Sight, describe_shown};
 use crate::document::{Background, Illustration};
 use crate::math::borders::borders;
 use crate::render::{
@@ -166,7 +166,8 @@ fn told(
     let document = &opened.document;
     let lang = Lang::from_tag(&document.illustration().lang).unwrap_or(lang);
     let step = step.min(document.step_count());
-    let description = describe(document, step, &measured, lang).map_err(CliError::Step)?;
+    let description =
+        describe_shown(document, (step, shown), &measured, lang).map_err(CliError::Step)?;
     Ok(description.text().to_owned())
 }
 

@@ -13,12 +13,13 @@ use super::export::export_field;
 use super::figures::{export_figure, is_figure, probe_figure};
 use super::info::info;
 use super::link::link;
-use super::opening::open;
-use super::output::{one_line, print, write_whole};
+use super::opening::{Opened, open};
+use super::output::{misused, one_line, print, write_whole};
 use super::probe::{Columns, probe};
 use super::rays::rays;
 use super::render::{Paper, render};
 use super::templates::{templates_json, templates_text};
+use crate::link::Link;
 use crate::shell::native::{Opening, view};
 
 /// Runs the command line. Without arguments it opens the window.
@@ -27,9 +28,12 @@ pub fn run() -> ExitCode {
         Ok(args) => args,
         Err(error) => {
             // Help and version go to standard output and are no error.
-            let code = if error.use_stderr() { 2 } else { 0 };
-            let _unprintable = error.print();
-            return ExitCode::from(code);
+            if !error.use_stderr() {
+                let _unprintable = error.print();
+                return ExitCode::SUCCESS;
+            }
+            eprintln!("{}", misused(&error.to_string()));
+            return ExitCode::from(2);
         }
     };
     match execute(args) {
@@ -59,7 +63,7 @@ fn execute(args: Args) -> Result<(), CliError> {
             }
             let opening = Opening {
                 folder: opened.as_ref().map(|opened| opened.folder.clone()),
-                document: opened.map(|opened| opened.document),
+                link: opened.map(|Opened { document, step, .. }| Link { document, step }),
                 subject: common.subject.clone(),
                 reading: common.reading.clone(),
                 adapter: common.adapter.clone(),
