@@ -1,5 +1,6 @@
 //! A clay in the window: it is shaped as far as its strokes are shown, and its captions go with it.
 
+use super::figures::{apart, drawn};
 use super::*;
 use fabrica::app::{ClayCommand, HandCommand, HeldTool, StrokeWay};
 use fabrica::assets::Source;
@@ -55,6 +56,32 @@ fn steps_show_a_clay_grow_and_captions_go_with_it() {
         );
     }
     assert_eq!(window.document().illustration().captions[0].at.z, 0.5);
+}
+
+/// The strip shows each step with its own strokes, from when the step is shown.
+#[test]
+fn the_strip_shows_a_clay_grow() {
+    let mut window = Window::open(DESK, PULLED);
+    window.settle();
+    let names = ["Start", "Step 1: Pulled", "Step 2: Pressed"];
+    let pictures = |window: &mut Window| names.map(|name| window.step_picture(name));
+    // A tile without a picture has corners of another colour.
+    let are_drawn = |pictures: &[image::RgbaImage; 3]| pictures.each_ref().map(|p| drawn(p) > 60);
+    let first = pictures(&mut window);
+    assert_eq!(are_drawn(&first), [true, false, false]);
+    window.click("Next step");
+    window.steps(PASSAGE);
+    window.settle();
+    window.look("clay_strip");
+    let second = pictures(&mut window);
+    assert_eq!(are_drawn(&second), [true, true, false]);
+    let horn = apart(&second[0], &second[1]);
+    assert!(horn > 20, "a ball has no horn: {horn} pixels apart");
+    let kept = apart(&first[0], &second[0]);
+    assert!(
+        kept < horn / 4,
+        "the start stays as it was: {kept} of {horn}"
+    );
 }
 
 /// A clay of many strokes, small ones around a ball.

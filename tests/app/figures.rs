@@ -20,12 +20,12 @@ impl Window {
 }
 
 /// How many pixels are of another colour than the one in the corner.
-fn drawn(picture: &image::RgbaImage) -> usize {
+pub(crate) fn drawn(picture: &image::RgbaImage) -> usize {
     let ground = picture.get_pixel(0, 0);
     picture.pixels().filter(|pixel| *pixel != ground).count()
 }
 
-fn apart(a: &image::RgbaImage, b: &image::RgbaImage) -> usize {
+pub(crate) fn apart(a: &image::RgbaImage, b: &image::RgbaImage) -> usize {
     let pairs = a.pixels().zip(b.pixels());
     pairs.filter(|(a, b)| a != b).count()
 }
@@ -173,11 +173,7 @@ fn steps_have_small_pictures_of_their_own() {
     window.steps(90);
     window.settle();
     window.look("figure_strip");
-    let tile = |window: &mut Window, label: &str| {
-        let rect = window.harness.get_by_label(label).rect();
-        window.pixels(rect.shrink(8.0).with_max_y(rect.max.y - 18.0))
-    };
-    let (start, step) = (tile(&mut window, "Start"), tile(&mut window, "Step 1"));
+    let (start, step) = (window.step_picture("Start"), window.step_picture("Step 1"));
     assert!(drawn(&start) > 60, "the arm is drawn");
     assert!(apart(&start, &step) > 20, "bent otherwise");
 }

@@ -41,6 +41,12 @@ impl Window {
     fn rect_of_step(&self, name: &str) -> Rect {
         self.harness.get_by_label(name).rect()
     }
+
+    /// The small picture of a step.
+    pub(crate) fn step_picture(&mut self, name: &str) -> image::RgbaImage {
+        let rect = self.rect_of_step(name);
+        self.pixels(rect.shrink(8.0).with_max_y(rect.max.y - 18.0))
+    }
 }
 
 /// Draws the steps of a document as the command line does.

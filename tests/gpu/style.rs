@@ -3,6 +3,7 @@
 
 use crate::align::labelled_block;
 use crate::gpu::{builtin, software, studio_of};
+use crate::pieces::pieces;
 use fabrica::data::{Segmentation, Subject, Volume, Voxels};
 use fabrica::document::{Document, Illustration, STYLE_PRESETS};
 use fabrica::render::{Image, Studio, View};
@@ -149,6 +150,86 @@ fn outlines_stand_at_silhouettes_and_nowhere_inside() {
             }
         }
     }
+}
+
+/// The gaps of at most three pixels between two lines, in the rows of a square picture and in its columns: what a rim that
+/// is drawn twice leaves all along it. Where lines meet at a sharp angle there are a few.
+fn slits(is_dark: impl Fn(u32, u32) -> bool, side: u32) -> usize {
+    let across = |along: u32, at: u32, is_row: bool| match is_row {
+        true => is_dark(at, along),
+        false => is_dark(along, at),
+    };
+    let mut found = 0;
+    for is_row in [true, false] {
+        for along in 0..side {
+            let mut since_line = None;
+            for at in 0..side {
+                if across(along, at, is_row) {
+                    found += usize::from(matches!(since_line, Some(1..=3)));
+                    since_line = Some(0);
+                } else {
+                    since_line = since_line.map(|gap: u32| gap + 1);
+                }
+            }
+        }
+    }
+    found
+}
+
+/// A peeled cube: its skin, the cut and the flap's underside meet at rims that are drawn once, and all lines hang
+/// together.
+#[test]
+fn the_rim_of_a_peeled_cube_is_drawn_once() {
+    let side = 300;
+    let volume = solid(|at| 22.0 - at.abs().max_element(), |_| 1, &["cube"]);
+    let studio = studio_of(software(), &volume, true);
+    let peel = r#""templates":[{"kind":"peel","at":[0,0,0.15],"size":[0.5,0.5,0.5],"params":{"progress":0.5,"depth":0.5}}],"camera":{"rotate":[0.25,0.1,0.25,0.93],"distance":2.4}"#;
+    let style =
+        format!(r##""style":{{"outline":{{"width":8,"color":"#000000","creases":0.5}},{WHITE}}}"##);
+    let picture = |rest: &str| {
+        let shown = illustration(&format!(r#""look":{{{LOOK},{style}}},{rest}"#));
+        drawn(&studio, &shown, [side, side], 4)
+    };
+    let peeled = picture(peel);
+    let dark = |image: &Image| {
+        let places = (0..side * side).filter(|i| is_line(image, i % side, i / side));
+        places.count()
+    };
+    let closed = picture(&peel.replace("\"progress\":0.5", "\"progress\":0"));
+    let (lines, of_cube) = (dark(&peeled), dark(&closed));
+    assert!(
+        lines > of_cube + 300,
+        "the rims: {lines} dark, {of_cube} of the cube"
+    );
+    let found = slits(|x, y| is_line(&peeled, x, y), side);
+    println!("{lines} dark, {of_cube} of the cube alone, {found} slits");
+    assert!(
+        found * 50 < lines,
+        "{found} slits beside {lines} dark pixels"
+    );
+    let only_lines: Vec<u8> = (0..side * side)
+        .flat_map(|i| {
+            [
+                0,
+                0,
+                0,
+                255 * u8::from(is_line(&peeled, i % side, i / side)),
+            ]
+        })
+        .collect();
+    let pieces = pieces(side, &only_lines);
+    let small = pieces.iter().skip(1).map(Vec::len).sum::<usize>();
+    assert!(
+        small * 100 < lines,
+        "{small} of {lines} dark pixels stand apart"
+    );
+    // Negative control: lines that are drawn twice, five pixels apart.
+    let twice = |x: u32, y: u32| is_line(&peeled, x, y) || x >= 5 && is_line(&peeled, x - 5, y);
+    let doubled = slits(twice, side);
+    assert!(
+        doubled * 10 > lines,
+        "{doubled} slits beside {lines} dark pixels"
+    );
 }
 
 /// Two tissues of one form, one colour: a line stands along their border, and ends with it.

@@ -2,7 +2,8 @@
 //! plays the lesson.
 //!
 //! The pictures are drawn while the strip is shown and nothing else is: one at a time, once the picture in the middle
-//! is complete and no button is held. Each stays until its step shows something else.
+//! is complete and no button is held. Each stays until its step shows something else. Of a clay that grows by steps the
+//! picture of a step comes when the step is shown: its strokes are done then.
 
 use std::sync::Arc;
 
@@ -20,7 +21,7 @@ use crate::app::session::{Command, Session, StepCommand};
 use crate::app::words::{fill, steps::w};
 use crate::assets::Bending;
 use crate::data::{Pending, poll_once};
-use crate::document::{Document, Illustration};
+use crate::document::{Document, Illustration, SubjectRef};
 use crate::render::{Image, RenderError};
 
 /// Width and height of a picture, pixels.
@@ -64,6 +65,8 @@ pub(crate) struct Pictures {
     document: Option<Document>,
     /// What each step shows.
     states: Vec<Arc<Illustration>>,
+    /// Whether the subject that is shown is that of each state.
+    can_draw: Vec<bool>,
     made: Vec<Made>,
     /// For each step its place in `made`.
     places: Vec<Option<usize>>,
@@ -84,8 +87,11 @@ impl Pictures {
     }
 
     fn next(&self) -> Option<&Arc<Illustration>> {
-        let missing = self.places.iter().position(Option::is_none)?;
-        self.states.get(missing)
+        let places = self.places.iter().zip(&self.can_draw);
+        let missing = places
+            .enumerate()
+            .find(|(_, (place, can_draw))| place.is_none() && **can_draw);
+        self.states.get(missing?.0)
     }
 
     fn of(&self, step: usize) -> Option<&TextureHandle> {
@@ -105,7 +111,9 @@ impl Pictures {
             return;
         }
         if !is_same_subject {
-            self.made.clear();
+            // What a clay looks like its recipe says, which a state has.
+            let is_clay = |(of, _): &Made| matches!(of.subject, SubjectRef::Clay(_));
+            self.made.retain(is_clay);
             self.job = None;
         }
         self.subject = subject;
@@ -175,6 +183,8 @@ impl Pictures {
         };
         self.take(session);
         self.has_subject = session.view.subject.is_some();
+        let can_draw = self.states.iter().map(|state| session.can_draw(state));
+        self.can_draw = can_draw.collect();
         if let Some((of, work)) = &mut self.job {
             if let Some(image) = poll_once(work) {
                 let texture = image.ok().map(|image| {

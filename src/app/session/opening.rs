@@ -15,7 +15,7 @@ use crate::app::words::messages::w;
 use crate::assets::{OtherFile, Want};
 use crate::document::figure::Figure;
 use crate::document::{
-    Clay, Document, Edit, FIGURE_FRONT, Notice, NoticeKind, Reading, SubjectRef,
+    Clay, Document, Edit, FIGURE_FRONT, Illustration, Notice, NoticeKind, Reading, SubjectRef,
 };
 use crate::link::{self, Link};
 
@@ -158,6 +158,16 @@ impl Session {
         let is_shown =
             self.is_as_shown(&self.shown_subject) && !self.outlives(self.is_sketch_shown);
         is_clay && !is_shown && !self.is_as_shown(&self.given_up)
+    }
+
+    /// True if what a step has can be drawn of the subject that is shown: not of a clay with other strokes, nor of its
+    /// sketch.
+    pub fn can_draw(&self, state: &Illustration) -> bool {
+        let SubjectRef::Clay(_) = &state.subject else {
+            return true;
+        };
+        let is_of_step = |shown| state.shows(shown);
+        !self.is_sketch_shown && self.shown_subject.as_ref().is_some_and(is_of_step)
     }
 
     /// True of a sketch that no hand goes on shaping.
