@@ -41,12 +41,12 @@ fn share_bodies(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 /// The least share of a voxel's own label, as in pass/shares.wgsl: what is one voxel thin is not lost.
 const HELD: f32 = 0.65;
 
-/// What the share of hidden segments has less beside segments that are drawn by their values: half of a place is then the
-/// middle of the ramp that takes off the film around bodies (`with_bodies`), and both end at the border of their labels.
-/// Else the film would take the outermost part of an organ, and the whole of a vessel that is one voxel thin.
+/// What the share of hidden segments has less beside segments that are drawn by their values: half of a place is then
+/// the middle of the ramp that takes off the film around bodies (`with_bodies`), and both end at the border of their
+/// labels. Else the film would take the outermost part of an organ, and the whole of a vessel that is one voxel thin.
 const BESIDE_VALUES: f32 = 0.3;
-/// The part of a block of 5 x 5 x 5 voxels that is filled by what counts as thin: fully up to the first, not at all from
-/// the second on. A vessel of two voxels fills 0.16, a sheet of one voxel 0.2, what is thick 0.4 of a block beside it.
+/// The part of a block of 5 x 5 x 5 voxels that is filled by what counts as thin: fully up to the first, not at all
+/// from the second on. A vessel of two voxels fills 0.16, a sheet of one voxel 0.2, what is thick 0.4 of a block beside it.
 const THIN: vec2f = vec2f(0.2, 0.28);
 
 /// Shares of one voxel: of the labels around it, weighted 1 2 1 along each axis. Its own label has HELD at least, and

@@ -152,8 +152,8 @@ fn outlines_stand_at_silhouettes_and_nowhere_inside() {
     }
 }
 
-/// The gaps of at most three pixels between two lines, in the rows of a square picture and in its columns: what a rim that
-/// is drawn twice leaves all along it. Where lines meet at a sharp angle there are a few.
+/// The gaps of at most three pixels between two lines, in the rows of a square picture and in its columns: what a rim
+/// that is drawn twice leaves all along it. Where lines meet at a sharp angle there are a few.
 fn slits(is_dark: impl Fn(u32, u32) -> bool, side: u32) -> usize {
     let across = |along: u32, at: u32, is_row: bool| match is_row {
         true => is_dark(at, along),

@@ -21,7 +21,8 @@ pub(super) fn one_line(message: &dyn fmt::Display) -> String {
         .collect()
 }
 
-/// What the reader of the arguments says about wrong ones, as one line: its first paragraph, and how the command is used.
+/// What the reader of the arguments says about wrong ones, as one line: its first paragraph, and how the command is
+/// used.
 pub(super) fn misused(said: &str) -> String {
     let fault = said.split("\n\n").next().unwrap_or(said);
     let fault: Vec<&str> = fault.lines().map(str::trim).collect();
