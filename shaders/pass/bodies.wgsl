@@ -46,7 +46,8 @@ const HELD: f32 = 0.65;
 /// labels. Else the film would take the outermost part of an organ, and the whole of a vessel that is one voxel thin.
 const BESIDE_VALUES: f32 = 0.3;
 /// The part of a block of 5 x 5 x 5 voxels that is filled by what counts as thin: fully up to the first, not at all
-/// from the second on. A vessel of two voxels fills 0.16, a sheet of one voxel 0.2, what is thick 0.4 of a block beside it.
+/// from the second on. A vessel of two voxels fills 0.16, a sheet of one voxel 0.2, what is thick 0.4 of a block beside
+/// it.
 const THIN: vec2f = vec2f(0.2, 0.28);
 
 /// Shares of one voxel: of the labels around it, weighted 1 2 1 along each axis. Its own label has HELD at least, and
