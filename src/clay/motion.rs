@@ -173,18 +173,20 @@ impl<'a> Motion<'a> {
     /// If they are more than [`MOST_STEPS`].
     pub(super) fn times(&self) -> Result<Vec<(f64, f64)>, LeftOut> {
         let spans = spans(&self.movers);
-        let count = |steps: &dyn Fn((f64, f64)) -> f64| -> Vec<usize> {
-            spans.iter().map(|span| steps(*span) as usize).collect()
+        let count = |steps: &dyn Fn((f64, f64)) -> f64| -> Vec<f64> {
+            spans.iter().map(|span| steps(*span)).collect()
         };
+        let is_few = |counts: &[f64]| counts.iter().sum::<f64>() <= MOST_STEPS as f64;
         let counted = count(&|span| counted_in(&self.movers, span));
-        let steps = counted.iter().sum();
-        if steps > MOST_STEPS {
+        if !is_few(&counted) {
+            let steps = counted.iter().sum::<f64>() as usize;
             return Err(LeftOut::TooLong { steps });
         }
         // A thin coating in the way of a wide one asks for more steps than the limit counts.
         let wanted = count(&|span| wanted_in(&self.movers, self.mirrored, span, STEPS_A_COAT));
-        let fits = wanted.iter().sum::<usize>() <= MOST_STEPS;
-        Ok(parts(&spans, if fits { &wanted } else { &counted }))
+        let counts = if is_few(&wanted) { wanted } else { counted };
+        let counts: Vec<usize> = counts.iter().map(|count| *count as usize).collect();
+        Ok(parts(&spans, &counts))
     }
 
     /// The fewest steps in which no tool goes farther than an eighth of its coating: by the way itself, of which
@@ -206,25 +208,35 @@ impl<'a> Motion<'a> {
         steps.into_iter().flat_map(|step| step.balls).collect()
     }
 
-    /// The times at which a stroke that smooths does so: the start, and every half coating of the way.
+    /// The times at which a stroke that smooths does so: the start, and every half coating of the way, whatever the
+    /// keys are that the way is told by.
     ///
     /// # Errors
     /// If the way is longer than the steps of a stroke allow.
     pub(super) fn moments(&self) -> Result<Vec<(f64, f64)>, LeftOut> {
         self.times()?;
         let spans = spans(&self.movers);
-        let counts: Vec<usize> = spans
-            .iter()
-            .map(|(from, to)| {
-                let halves = self
-                    .movers
-                    .iter()
-                    .map(|m| 2.0 * m.travel(*from, *to) / m.coat);
-                libm::ceil(halves.fold(0.0, f64::max)) as usize
-            })
-            .collect();
+        let halves = |(from, to): (f64, f64)| {
+            let of_tool = self.movers.iter();
+            let of_tool = of_tool.map(|mover| 2.0 * mover.travel(from, to) / mover.coat);
+            of_tool.fold(0.0, f64::max)
+        };
+        let all: f64 = spans.iter().map(|span| halves(*span)).sum();
+        let count = libm::ceil(all - ROUNDING) as usize;
         let mut moments = vec![(0.0, 0.0)];
-        moments.extend(parts(&spans, &counts).into_iter().map(|(_, to)| (to, to)));
+        // Parts of the whole way at which a span begins and ends.
+        let mut begin = 0.0;
+        for span in spans {
+            let (from, to) = span;
+            let share = halves(span) / all;
+            let is_in = |part: f64| part > begin && part <= begin + share + ROUNDING;
+            let parts = (moments.len()..=count).map(|i| i as f64 / count as f64);
+            for part in parts.take_while(|part| is_in(*part)).collect::<Vec<_>>() {
+                let time = from + (to - from) * ((part - begin) / share).min(1.0);
+                moments.push((time, time));
+            }
+            begin += share;
+        }
         Ok(moments)
     }
 

@@ -7,6 +7,7 @@ use glam::{DVec3, Vec3};
 use super::check::Check;
 use super::error::ClayError;
 use super::mesh::{ClayMesh, Vertex};
+use super::motion::Motion;
 use super::refine::MAX_TRIANGLES;
 use super::shaping::{Shaped, Shaping};
 use super::suite::{ball, clay, key, place, stroke, suite};
@@ -358,6 +359,35 @@ fn smoothing_takes_wrinkles_away_and_leaves_the_rest() {
     assert_eq!(below(&smoothed), below(&wrinkled));
 }
 
+/// However many keys tell a way, it is smoothed at the same places of it.
+#[test]
+fn smoothing_heeds_the_way_and_not_its_keys() {
+    let places = |count: i32, is_straight: bool| -> Vec<f64> {
+        let keys: Vec<ClayKey> = (0..count)
+            .map(|i| place([230 * i / (count - 1), 0, 500]))
+            .collect();
+        let mut one = stroke(&keys);
+        one.smooth = Some(100);
+        one.moves[0].is_straight = is_straight;
+        let clay = with_strokes(clay(ClayShape::Cube, &[ball(0.1, 0.1)]), vec![one]);
+        let motion = Motion::new(&clay, (0, &clay.strokes[0]), &Grids::default()).unwrap();
+        let moments = motion.moments().unwrap().into_iter();
+        let balls = moments.map(|moment| motion.step(moment).balls[0]);
+        balls.map(|ball| ball.middle.x).collect()
+    };
+    // 4.6 times half a coating.
+    let expected = [0.0, 0.046, 0.092, 0.138, 0.184, 0.23];
+    for (count, is_straight) in [(2, true), (3, true), (3, false), (11, false), (24, true)] {
+        let found = places(count, is_straight);
+        let pairs = found.iter().zip(expected);
+        let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(
+            found.len() == expected.len() && off < 1e-3,
+            "{count} keys, straight {is_straight}: {found:?}"
+        );
+    }
+}
+
 #[test]
 fn what_cannot_be_done_is_named_and_left_out() {
     let mut clay = clay(ClayShape::Ball, &[ball(0.005, 0.01)]);
@@ -373,18 +403,21 @@ fn what_cannot_be_done_is_named_and_left_out() {
     };
     let mut off = of(0);
     off.is_off = true;
-    clay.strokes = vec![far, of(1), of(7), off, of(0)];
+    // A straight way is told of as a whole, too: 18 units, in eighths of a coating.
+    let straight = stroke(&[[-9000, 0, 0], [9000, 0, 0]].map(place));
+    clay.strokes = vec![far, of(1), of(7), off, straight, of(0)];
     let shaping = shape(&clay);
     let [
         (0, LeftOut::TooLong { steps }),
         (1, LeftOut::NoTool(1)),
         (2, LeftOut::NoTool(7)),
+        (4, LeftOut::TooLong { steps: 14_400 }),
     ] = shaping.left_out()
     else {
         panic!("{:?}", shaping.left_out());
     };
     assert!(*steps > 10_000);
-    assert_eq!(shaping.done(), 5);
+    assert_eq!(shaping.done(), 6);
     let start = Shaping::new(&clay).unwrap().shaped();
     assert_ne!(shaping.shaped().positions, start.positions);
     clay.from = ClayStart::Unknown("egg".to_owned());

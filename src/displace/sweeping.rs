@@ -20,7 +20,7 @@
 use super::clusters::clusters;
 use super::facts::Given;
 use super::mover::{Ball, Mover, counted_in, images_of, spans, wanted_in};
-use super::tools::{PathKey, SweepTool, SweepTools, ToolShape};
+use super::tools::{MOST_STEPS, PathKey, SweepTool, SweepTools, ToolShape};
 use crate::math::{Aabb, Screw, Similarity, smooth_path};
 use glam::{DQuat, DVec3, Vec3};
 
@@ -315,7 +315,8 @@ impl<'a> Sweeping<'a> {
 /// Steps as the limits of a document count them.
 fn counted_steps(movers: &[Mover<'_>]) -> usize {
     let spans = spans(movers).into_iter();
-    spans.map(|span| counted_in(movers, span) as usize).sum()
+    let of_span = |span| counted_in(movers, span).min(MOST_STEPS as f64) as usize;
+    spans.map(of_span).sum()
 }
 
 /// A box mirrored by the signs of its axes; an empty one stays empty.
@@ -452,7 +453,6 @@ pub(super) fn turns_of(points: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::displace::MOST_STEPS;
 
     /// A wide coating past a thin one, twice and far apart: the clusters share the steps of the sweep.
     #[test]

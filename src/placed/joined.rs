@@ -1,25 +1,24 @@
-//! One sweep out of two whose displacements are summed: a sum may fold, while tools of one sweep act at once and never
-//! do (spec/sweepers.md, A.4, "Lists and modes").
+//! One sweep out of two (spec/sweepers.md, A.4, "Lists and modes", and B.3): the tools of one act at once and never fold
+//! tissue, which a sum of two may.
 
 use crate::displace::{COAT, FARTHEST, MAX_IMAGES, MAX_TOOLS, SweepTools};
 use crate::document::{PlacedTemplate, TemplateData, TemplateMode};
 use glam::Vec3;
 
-/// The sweep that can take the tools of the one at `index`, to which its displacement is added: its index, and the
-/// tools that it then has, which go through the subject as they did. `None` where there is none, or where the two are
-/// done in different ways: by other parts, along curves, with other tissue kept, with more tools than one sweep has.
+/// The sweep that can take the tools of the one at `index`: the one just before it, or one farther before to which its
+/// displacement is added. Its index, and the tools that it then has, which go through the subject as they did. `None`
+/// where there is none, or where the two are done in different ways: by other parts, along curves, with other tissue
+/// kept, with more tools than one sweep has.
 pub fn joined_sweep(templates: &[PlacedTemplate], index: usize) -> Option<(usize, SweepTools)> {
     let place = templates.iter().position(|t| t.index == index)?;
     let own = &templates[place];
-    let mut is_summed = own.mode == TemplateMode::Add;
     for other in templates[..place].iter().rev() {
-        if !is_summed {
-            return None;
-        }
         if let Some(tools) = joined(other, own) {
             return Some((other.index, tools));
         }
-        is_summed = other.mode == TemplateMode::Add;
+        if own.mode != TemplateMode::Add || other.mode != TemplateMode::Add {
+            return None;
+        }
     }
     None
 }
@@ -145,7 +144,10 @@ mod tests {
             joined_sweep(&read(&[first, second]), 1).is_none()
         };
         assert!(!none(json!({}), json!({})), "these are alike");
-        assert!(none(json!({}), json!({ "mode": "compose" })));
+        assert!(
+            !none(json!({}), json!({ "mode": "compose" })),
+            "one after the other"
+        );
         assert!(none(json!({}), json!({ "amount": 0.5 })));
         assert!(none(
             json!({ "align": { "to": "segment", "keep": ["bone"] } }),

@@ -100,6 +100,26 @@ fn a_mesh_becomes_an_object_by_the_keyboard() {
 }
 
 #[test]
+fn a_mesh_becomes_the_tool_of_a_sweep() {
+    let mut window = open();
+    let before = window.document();
+    arrives(&mut window, &hash("0d"));
+    window.click("A tool in hand");
+    assert!(!is_asked(&window));
+    assert_eq!(window.document(), before, "nothing is swept yet");
+    window.drag(window.picture_center(), vec2(40.0, 0.0));
+    let document = window.document();
+    let tool = document.get("/templates/0/params/tools/0");
+    let tool = tool.expect("a sweep of one tool");
+    assert_eq!(
+        (&tool["shape"], &tool["sha256"]),
+        (&"mesh".into(), &hash("0d").into())
+    );
+    window.undo();
+    assert_eq!(window.document(), before);
+}
+
+#[test]
 fn escape_leaves_a_mesh() {
     let mut window = open();
     let before = window.document();

@@ -439,6 +439,42 @@ fn a_sweep_is_drawn_on_the_object() {
     assert_eq!(window.document().illustration().templates.len(), 1);
 }
 
+/// The tool of a second gesture is put into the sweep of the first by one click, and goes where it went.
+#[test]
+fn a_drawn_tool_is_added_to_the_sweep_before() {
+    let mut window = Window::open(
+        DESK,
+        r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#,
+    );
+    let from = window.picture_center();
+    for way in [vec2(90.0, -40.0), vec2(-70.0, -30.0)] {
+        window.take_sweep();
+        window.drag(from, way);
+        window.wait_for_sweep();
+    }
+    let apart = window.document();
+    assert_eq!(apart.illustration().templates.len(), 2);
+    let end = |window: &Window, name: &str| window.harness.get_by_label(name).rect().center();
+    let was = end(&window, "Key 1 of tool 1");
+    window
+        .harness
+        .get_by_label("Put its tools into template 1")
+        .scroll_to_me();
+    window.steps(3);
+    window.click("Put its tools into template 1");
+    window.settle();
+    let document = window.document();
+    let templates = &document.illustration().templates;
+    let fabrica::document::TemplateData::Tools(held) = &templates[0].data else {
+        panic!("a sweep: {templates:?}")
+    };
+    assert_eq!((templates.len(), held.tools.len()), (1, 2));
+    let is = end(&window, "Key 1 of tool 2");
+    assert!(was.distance(is) < 3.0, "{was} and {is}");
+    window.undo();
+    assert_eq!(window.document(), apart, "one step of undo");
+}
+
 impl Window {
     /// Takes the tool in hand that draws a sweep.
     fn take_sweep(&mut self) {

@@ -50,7 +50,7 @@ pub(crate) fn ui(ui: &Ui, session: &Session, commands: &mut Vec<Command>) {
         ui.add_space(3.0);
         let shown = answers
             .into_iter()
-            .filter(|answer| answer.0 != MeshUse::Tool || session.clay().is_some());
+            .filter(|answer| answer.0 != MeshUse::Tool || !session.view.is_figure());
         for (answer, icon, text, hint, is_possible) in shown {
             let button = widget::labelled_button(ui, icon, text, false, is_possible);
             // The keyboard begins at the first answer.

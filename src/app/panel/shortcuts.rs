@@ -37,6 +37,8 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         command,
         text,
     };
+    let coat = |is_wider| Command::Hand(HandCommand::Recoat(is_wider));
+    let hand = crate::app::words::clay::w();
     let w = w();
     let s = crate::app::words::slices::w();
     let mut all = vec![
@@ -78,6 +80,11 @@ pub(crate) fn shortcuts() -> Vec<Shortcut> {
         entry(NONE, Key::G, Command::SetGizmo(GizmoMode::Move), w.move_it),
         entry(NONE, Key::T, Command::SetGizmo(GizmoMode::Turn), w.turn_it),
         entry(NONE, Key::S, Command::SetGizmo(GizmoMode::Size), w.size_it),
+        // Some keyboards make braces of the brackets.
+        entry(SHIFT, Key::CloseBracket, coat(true), hand.key_wider),
+        entry(SHIFT, Key::CloseCurlyBracket, coat(true), ""),
+        entry(SHIFT, Key::OpenBracket, coat(false), hand.key_thinner),
+        entry(SHIFT, Key::OpenCurlyBracket, coat(false), ""),
         entry(
             NONE,
             Key::CloseBracket,

@@ -73,7 +73,7 @@ pub(crate) fn ui(ui: &mut Ui, template: &PlacedTemplate, commands: &mut Vec<Comm
     }
 }
 
-/// Offers to put the tools of a sweep that is added to another into that one.
+/// Offers to put the tools of a sweep into the one before it.
 pub(crate) fn join_ui(
     ui: &mut Ui,
     templates: &[PlacedTemplate],

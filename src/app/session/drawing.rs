@@ -39,7 +39,10 @@ impl Session {
                 let way = hand.way.beside(self.is_sweeping(), is_next);
                 self.hold(HeldTool { way, ..hand });
             }
-            HandCommand::NextWay(_) => {}
+            HandCommand::Recoat(is_wider) if self.has_hand() => {
+                self.hold(self.hand().recoated(is_wider));
+            }
+            HandCommand::NextWay(_) | HandCommand::Recoat(_) => {}
             HandCommand::Draw {
                 way,
                 touches,
@@ -74,6 +77,15 @@ impl Session {
         });
         if !StrokeWay::offered(true).contains(&hand.way) {
             hand.way = StrokeWay::Move;
+        }
+    }
+
+    /// Takes a tool of this form in hand that draws sweeps.
+    pub(super) fn sweep_with(&mut self, shape: ToolShape) {
+        self.take_tool(Tool::Place(TemplateKind::Sweep));
+        self.ready_to_sweep();
+        if let Some(hand) = &mut self.sweep_hand {
+            hand.own = Some(shape);
         }
     }
 

@@ -64,10 +64,13 @@ impl Session {
         self.object_count() < MAX_OBJECTS
     }
 
-    /// True if the subject is a clay, which may be shaped by one tool more.
+    /// True if a tool more may be taken in hand: of a clay, which has so many at most, or for sweeps of anything else
+    /// but a figure.
     pub fn can_take_tool(&self) -> bool {
-        let clay = self.clay();
-        clay.is_some_and(|clay| clay.tools.len() < Clay::MAX_TOOLS)
+        match self.clay() {
+            Some(clay) => clay.tools.len() < Clay::MAX_TOOLS,
+            None => !self.view.is_figure(),
+        }
     }
 
     /// Does with the mesh file what the reader answers.
@@ -108,7 +111,11 @@ impl Session {
                     ..ToolFile::default()
                 };
                 let longest = ToolShape::LONGEST;
-                self.take_own_tool(ToolShape::Mesh { file, longest }, "Add tool");
+                let shape = ToolShape::Mesh { file, longest };
+                match self.clay() {
+                    Some(_) => self.take_own_tool(shape, "Add tool"),
+                    None => self.sweep_with(shape),
+                }
             }
             MeshUse::Object => {
                 self.effect(Effect::DropMesh);

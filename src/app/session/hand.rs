@@ -224,8 +224,12 @@ impl HeldTool {
 
     /// Larger or smaller by a step.
     pub(super) fn resized(&self, larger: bool) -> Self {
-        let factor = if larger { 1.15 } else { 1.0 / 1.15 };
-        self.with_size(self.size * factor)
+        self.with_size(self.size * by_a_step(larger))
+    }
+
+    /// The same with a coating that is wider or thinner by a step.
+    pub(super) fn recoated(&self, wider: bool) -> Self {
+        self.with_coat(self.coat * by_a_step(wider))
     }
 
     /// The same of another size, as near to it as a hand may hold one.
@@ -268,6 +272,8 @@ pub enum HandCommand {
     Hold(HeldTool),
     /// Goes on to the next way of drags that is offered, or to the one before.
     NextWay(bool),
+    /// Makes the coating wider or thinner by a step.
+    Recoat(bool),
     /// The way of the hand, as far as it has come.
     Draw {
         /// What the drag does.
@@ -278,6 +284,11 @@ pub enum HandCommand {
         /// The hand has let go.
         is_over: bool,
     },
+}
+
+/// The factor of a step to more, or to less.
+fn by_a_step(is_more: bool) -> f32 {
+    if is_more { 1.15 } else { 1.0 / 1.15 }
 }
 
 /// Three decimals, as a link holds them.

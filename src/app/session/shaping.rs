@@ -441,6 +441,18 @@ mod tests {
     }
 
     #[test]
+    fn a_command_makes_the_coating_wider_and_thinner() {
+        let mut session = session();
+        let before = session.hand().coat;
+        let mut coat = |is_wider: bool| {
+            session.run(Command::Hand(HandCommand::Recoat(is_wider)), 0.0);
+            session.hand().coat
+        };
+        assert!(coat(true) > 1.1 * before);
+        assert!((coat(false) - before).abs() < 1e-3);
+    }
+
+    #[test]
     fn a_command_goes_through_the_ways_to_drag() {
         let mut session = session();
         let mut next = |is_next: bool| {

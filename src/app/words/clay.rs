@@ -76,6 +76,8 @@ words! {
         key_over_does: "Up pushes, down pulls", "Nach oben drückt, nach unten hebt", "Hacia arriba empuja, hacia abajo tira", "向上压入，向下拉出";
         key_act: "Enter over clay", "Eingabe über Ton", "Intro sobre arcilla", "在黏土上按回车";
         key_way: "Next way to drag a tool; with Shift the one before", "Nächste Art, ein Werkzeug zu ziehen; mit Umschalt die vorige", "Siguiente manera de arrastrar un instrumento; con Mayús la anterior", "下一种拖动器械的方式；加 Shift 为上一种";
+        key_wider: "Wider coating of the tool in hand", "Breiterer Mantel des Werkzeugs in der Hand", "Recubrimiento más ancho del instrumento en la mano", "加宽手中器械的影响层";
+        key_thinner: "Thinner coating of the tool in hand", "Schmalerer Mantel des Werkzeugs in der Hand", "Recubrimiento más fino del instrumento en la mano", "收窄手中器械的影响层";
         key_together: "Lay strokes on clay down, or do them again", "Striche auf Ton vormerken oder wieder ausführen", "Dejar previstos los trazos sobre arcilla, o volver a hacerlos", "预置黏土笔划，或恢复直接执行";
         together: "Together", "Gemeinsam", "A la vez", "同时";
         together_hint: "Together (J): strokes are only laid down until Enter does them as one; Escape drops them, Undo takes the last one back. Smoothing is done at once", "Gemeinsam (J): Striche werden nur vorgemerkt, bis die Eingabetaste sie als einen ausführt; Esc verwirft sie, Rückgängig nimmt den letzten zurück. Geglättet wird sofort", "A la vez (J): los trazos solo se prevén hasta que Intro los hace como uno; Esc los descarta, Deshacer retira el último. El alisado se hace al momento", "同时 (J)：笔划只是预置，按回车时合为一笔执行；Esc 全部放弃，撤销收回最后一笔。平滑则立即执行";

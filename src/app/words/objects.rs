@@ -37,8 +37,8 @@ words! {
         place_here: "Place it freely", "Frei platzieren", "Colocarlo libremente", "自由放置";
         opacity_hint: "How much of what lies behind it it covers", "Wie viel er von dem verdeckt, was hinter ihm liegt", "Cuánto cubre de lo que hay detrás", "遮挡其后方物体的程度";
         own_colour: "The colours of its own", "Seine eigenen Farben", "Sus propios colores", "恢复自身颜色";
-        as_tool: "A tool of the clay", "Ein Werkzeug für den Ton", "Un instrumento de la arcilla", "黏土的器械";
-        as_tool_hint: "It is taken in hand and shapes the clay", "Es wird in die Hand genommen und formt den Ton", "Se toma en la mano y modela la arcilla", "拿在手中用来塑造黏土";
+        as_tool: "A tool in hand", "Ein Werkzeug in der Hand", "Un instrumento en la mano", "手中的器械";
+        as_tool_hint: "It shapes a clay; of anything else it sweeps tissue along", "Es formt Ton; bei allem anderen nimmt es Gewebe mit", "Modela la arcilla; en lo demás arrastra el tejido", "用来塑造黏土；对其他对象则拖移组织";
         carves: "Cut by", "Geschnitten mit", "Corta", "切割物体";
         carves_hint: "The object by whose surface is cut; the template goes with it", "Der Gegenstand, an dessen Fläche geschnitten wird; die Vorlage geht mit ihm", "El objeto por cuya superficie se corta; la plantilla va con él", "沿其表面切割的物体；模板随之移动";
         carves_nothing: "No visible object has this name: choose one, or show it.", "Kein sichtbarer Gegenstand heißt so: einen wählen oder ihn einblenden.", "Ningún objeto visible se llama así: elija uno o muéstrelo.", "没有可见的物体使用此名称：请选择一个，或将其显示。";

@@ -43,7 +43,7 @@ words! {
         scale: "Scale", "Größe", "Escala", "缩放";
         scale_hint: "Times its size; what is in it grows along", "Vielfaches seiner Größe; was in ihm ist, wächst mit", "Múltiplo de su tamaño; lo que hay dentro crece con él", "其大小的倍数；其中的组织随之增大";
         join: "Put its tools into template {0}", "Werkzeuge in Vorlage {0} übernehmen", "Pasar sus instrumentos a la plantilla {0}", "将其器械并入模板 {0}";
-        join_hint: "Two sweeps that are summed may fold tissue; the tools of one act at once and never do", "Zwei summierte Vorlagen können Gewebe falten; die Werkzeuge einer einzigen wirken gleichzeitig und tun es nie", "Dos plantillas sumadas pueden plegar el tejido; los instrumentos de una sola actúan a la vez y nunca lo hacen", "两个相加的模板可能使组织折叠；同一模板的器械同时作用，绝不会如此";
+        join_hint: "The tools of one sweep act at once and never fold tissue, which two that are summed may", "Die Werkzeuge einer einzigen Vorlage wirken gleichzeitig und falten nie Gewebe, was zwei summierte können", "Los instrumentos de una sola plantilla actúan a la vez y nunca pliegan el tejido, como pueden hacerlo dos sumadas", "同一模板的器械同时作用，绝不会使组织折叠；两个相加的模板则可能";
         mirror: "Mirror", "Spiegeln", "Espejo", "镜像";
         mirror_hint: "Every tool has an image beyond the middle of the box, which acts at the same time", "Jedes Werkzeug hat ein Spiegelbild jenseits der Mitte des Quaders, das gleichzeitig wirkt", "Cada instrumento tiene una imagen reflejada más allá del centro de la caja, que actúa a la vez", "每个器械在盒子中面另一侧有镜像，同时作用";
         mirror_axis: "Mirror across {0}", "Spiegeln quer zu {0}", "Espejo en {0}", "沿 {0} 镜像";
