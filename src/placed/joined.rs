@@ -1,5 +1,5 @@
-//! One sweep out of two (spec/sweepers.md, A.4, "Lists and modes", and B.3): the tools of one act at once and never fold
-//! tissue, which a sum of two may.
+//! One sweep out of two (spec/sweepers.md, A.4, "Lists and modes", and B.3): the tools of one act at once and never
+//! fold tissue, which a sum of two may.
 
 use crate::displace::{COAT, FARTHEST, MAX_IMAGES, MAX_TOOLS, SweepTools};
 use crate::document::{PlacedTemplate, TemplateData, TemplateMode};
