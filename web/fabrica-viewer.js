@@ -10,7 +10,8 @@
 // Properties and methods: steps, step, next(), previous(), play(), pause(), setParam(pointer, value), reset(),
 // present(), toDataURL() (a Promise). Events, which bubble: ready, stepchange, paramchange, viewchange, error.
 // The content of the element is its poster: it stays until the first whole picture is there, and for ever where there is no
-// WebGPU, with title, caption and steps as text under it. No inline script, no cookie, no request to a third party; everything is taken from beside this file.
+// WebGPU, with title, caption and steps as text under it. No inline script, no cookie, no request to a third party; everything
+// is taken from beside this file.
 
 /** Removal counts after this long, milliseconds: an element that is moved in its document is removed and put in again. */
 const GONE = 1000;

@@ -77,11 +77,12 @@ fn surface_at(edge: Sample, uvw: vec3f, map: Differential, cut: Cut, to_eye: vec
     if has_bodies != 0u {
         // The surface of a body is the surface of its segment, whatever the values there are.
         let own = body_gradient_at(edge.pos);
-        gradient = mix(gradient, own / look.table_scale, smoothstep(0.03, 0.15, length(own)));
+        let is_edge = smoothstep(0.03, 0.15, length(own));
+        gradient = mix(gradient, own / look.table_scale, is_edge);
         let shares = body_at(edge.pos);
         body_share = body_weight(shares);
         // The values half a voxel around a border are those of both sides: what is hidden gives no colour.
-        let bared = smoothstep(0.05, 0.25, shares.w) * smoothstep(0.03, 0.15, length(own));
+        let bared = smoothstep(0.05, 0.25, shares.w) * is_edge;
         tint_pos += own / max(length(own), 1e-9) * (bared * BARED_DEPTH * subject.detail);
     }
     let carried = carried_over(map.jacobian, gradient);

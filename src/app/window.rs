@@ -288,7 +288,7 @@ impl App {
             && !self.viewport.is_waiting()
             && !(self.session.view.is_split && self.slices.is_waiting())
             && !self.preset_pictures.is_waiting()
-            && !self.step_pictures.is_waiting()
+            && !self.step_pictures.is_waiting(&self.session)
             && self.picture.as_ref().is_none_or(is_picture_done)
     }
 

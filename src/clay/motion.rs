@@ -6,7 +6,9 @@ use glam::{DMat3, DVec3};
 use super::field::{Form, falloff};
 use super::mesh::Vertex;
 use crate::data::Grids;
-use crate::displace::{Ball, MOST_STEPS, Mover, asked_in, counted_in, images_of, spans, wanted_in};
+use crate::displace::{
+    Ball, MOST_STEPS, Mover, asked_in, coats_in, counted_in, images_of, spans, wanted_in,
+};
 use crate::document::{Clay, ClayKey, ClayMove, ClayStroke};
 use crate::math::{Screw, Similarity, smooth_path};
 
@@ -216,22 +218,21 @@ impl<'a> Motion<'a> {
     pub(super) fn moments(&self) -> Result<Vec<(f64, f64)>, LeftOut> {
         self.times()?;
         let spans = spans(&self.movers);
-        let halves = |(from, to): (f64, f64)| {
-            let of_tool = self.movers.iter();
-            let of_tool = of_tool.map(|mover| 2.0 * mover.travel(from, to) / mover.coat);
-            of_tool.fold(0.0, f64::max)
-        };
-        let all: f64 = spans.iter().map(|span| halves(*span)).sum();
+        // Halves of a coating.
+        let ways = spans.iter().map(|span| 2.0 * coats_in(&self.movers, *span));
+        let ways: Vec<f64> = ways.collect();
+        let all: f64 = ways.iter().sum();
         let count = libm::ceil(all - ROUNDING) as usize;
         let mut moments = vec![(0.0, 0.0)];
-        // Parts of the whole way at which a span begins and ends.
+        // The part of the whole way at which a span begins.
         let mut begin = 0.0;
-        for span in spans {
-            let (from, to) = span;
-            let share = halves(span) / all;
-            let is_in = |part: f64| part > begin && part <= begin + share + ROUNDING;
-            let parts = (moments.len()..=count).map(|i| i as f64 / count as f64);
-            for part in parts.take_while(|part| is_in(*part)).collect::<Vec<_>>() {
+        for ((from, to), way) in spans.into_iter().zip(ways) {
+            let share = way / all;
+            while moments.len() <= count {
+                let part = moments.len() as f64 / count as f64;
+                if part > begin + share + ROUNDING {
+                    break;
+                }
                 let time = from + (to - from) * ((part - begin) / share).min(1.0);
                 moments.push((time, time));
             }

@@ -94,7 +94,7 @@ pub use facts::{
 pub(crate) use interpolant::Interpolant;
 pub use interpolant::Missed;
 pub use kind::TemplateKind;
-pub(crate) use mover::{Ball, Mover, asked_in, counted_in, images_of, spans, wanted_in};
+pub(crate) use mover::{Ball, Mover, asked_in, coats_in, counted_in, images_of, spans, wanted_in};
 pub use noise::noise;
 pub use points::{ControlPoint, ControlPoints};
 pub use spec::{MAX_PARAM_FLOATS, ParamKind, ParamSpec, ParamValue, TemplateSpec};

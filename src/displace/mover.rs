@@ -135,12 +135,16 @@ pub(crate) fn spans(movers: &[Mover<'_>]) -> Vec<(f64, f64)> {
     breaks.windows(2).map(|pair| (pair[0], pair[1])).collect()
 }
 
+/// The coatings that a tool travels in a span: of the one that travels the most of its own.
+pub(crate) fn coats_in(movers: &[Mover<'_>], (from, to): (f64, f64)) -> f64 {
+    let of_tool = movers.iter();
+    let of_tool = of_tool.map(|mover| mover.travel(from, to) / mover.coat);
+    of_tool.fold(0.0, f64::max)
+}
+
 /// Steps of a span as the limits of documents count them; they may be more than [`MOST_STEPS`].
-pub(crate) fn counted_in(movers: &[Mover<'_>], (from, to): (f64, f64)) -> f64 {
-    let of_tool = movers
-        .iter()
-        .map(|mover| STEPS_A_COAT_OF_MANY * mover.travel(from, to) / mover.coat);
-    libm::ceil(of_tool.fold(0.0, f64::max))
+pub(crate) fn counted_in(movers: &[Mover<'_>], span: (f64, f64)) -> f64 {
+    libm::ceil(STEPS_A_COAT_OF_MANY * coats_in(movers, span))
 }
 
 /// Steps that a span takes, `alone` for each coating that a tool travels which meets no other; at most [`MOST_STEPS`].

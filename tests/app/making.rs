@@ -390,10 +390,7 @@ fn control_points_are_dragged_added_and_cut_apart() {
 
 #[test]
 fn a_sweep_is_drawn_on_the_object() {
-    let mut window = Window::open(
-        DESK,
-        r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#,
-    );
+    let mut window = Window::open(DESK, CUBE);
     let before = window.document();
     window.take_sweep();
     let from = window.picture_center();
@@ -442,10 +439,7 @@ fn a_sweep_is_drawn_on_the_object() {
 /// The tool of a second gesture is put into the sweep of the first by one click, and goes where it went.
 #[test]
 fn a_drawn_tool_is_added_to_the_sweep_before() {
-    let mut window = Window::open(
-        DESK,
-        r#"{ "fabrica": 1, "subject": { "builtin": "cube" } }"#,
-    );
+    let mut window = Window::open(DESK, CUBE);
     let from = window.picture_center();
     for way in [vec2(90.0, -40.0), vec2(-70.0, -30.0)] {
         window.take_sweep();

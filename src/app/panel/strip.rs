@@ -65,8 +65,6 @@ pub(crate) struct Pictures {
     document: Option<Document>,
     /// What each step shows.
     states: Vec<Arc<Illustration>>,
-    /// Whether the subject that is shown is that of each state.
-    can_draw: Vec<bool>,
     made: Vec<Made>,
     /// For each step its place in `made`.
     places: Vec<Option<usize>>,
@@ -81,17 +79,16 @@ pub(crate) struct Pictures {
 
 impl Pictures {
     /// True while pictures of a strip that is shown are missing.
-    pub(crate) fn is_waiting(&self) -> bool {
-        let is_any_missing = self.job.is_some() || self.next().is_some();
-        self.is_wanted && self.has_subject && is_any_missing
+    pub(crate) fn is_waiting(&self, session: &Session) -> bool {
+        let is_any_missing = || self.job.is_some() || self.next(session).is_some();
+        self.is_wanted && self.has_subject && is_any_missing()
     }
 
-    fn next(&self) -> Option<&Arc<Illustration>> {
-        let places = self.places.iter().zip(&self.can_draw);
-        let missing = places
-            .enumerate()
-            .find(|(_, (place, can_draw))| place.is_none() && **can_draw);
-        self.states.get(missing?.0)
+    /// The first state that has no picture and can be drawn of the subject that is shown.
+    fn next(&self, session: &Session) -> Option<&Arc<Illustration>> {
+        let missing = self.states.iter().zip(&self.places);
+        let mut missing = missing.filter(|(_, place)| place.is_none());
+        missing.find_map(|(state, _)| session.can_draw(state).then_some(state))
     }
 
     fn of(&self, step: usize) -> Option<&TextureHandle> {
@@ -183,8 +180,6 @@ impl Pictures {
         };
         self.take(session);
         self.has_subject = session.view.subject.is_some();
-        let can_draw = self.states.iter().map(|state| session.can_draw(state));
-        self.can_draw = can_draw.collect();
         if let Some((of, work)) = &mut self.job {
             if let Some(image) = poll_once(work) {
                 let texture = image.ok().map(|image| {
@@ -198,7 +193,7 @@ impl Pictures {
             }
             ctx.request_repaint();
         } else if self.has_subject
-            && let Some(state) = self.next().cloned()
+            && let Some(state) = self.next(session).cloned()
         {
             let is_idle = picture.state.is_done && !picture.is_waiting();
             let is_still = !session.is_playing() && !is_held;

@@ -82,8 +82,9 @@ impl Session {
 
     /// Takes a tool of this form in hand that draws sweeps.
     pub(super) fn sweep_with(&mut self, shape: ToolShape) {
-        self.take_tool(Tool::Place(TemplateKind::Sweep));
-        self.ready_to_sweep();
+        if !self.is_sweeping() {
+            self.start_placing(TemplateKind::Sweep);
+        }
         if let Some(hand) = &mut self.sweep_hand {
             hand.own = Some(shape);
         }

@@ -64,13 +64,10 @@ impl Session {
         self.object_count() < MAX_OBJECTS
     }
 
-    /// True if a tool more may be taken in hand: of a clay, which has so many at most, or for sweeps of anything else
-    /// but a figure.
+    /// True if a tool more may be taken in hand: a clay has so many at most, sweeps of anything else have no such list.
     pub fn can_take_tool(&self) -> bool {
-        match self.clay() {
-            Some(clay) => clay.tools.len() < Clay::MAX_TOOLS,
-            None => !self.view.is_figure(),
-        }
+        let clay = self.clay();
+        clay.is_none_or(|clay| clay.tools.len() < Clay::MAX_TOOLS)
     }
 
     /// Does with the mesh file what the reader answers.

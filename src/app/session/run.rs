@@ -243,7 +243,8 @@ impl Session {
         }
     }
 
-    fn start_placing(&mut self, kind: TemplateKind) {
+    /// Takes a template in hand that is to be placed, or puts it away.
+    pub(super) fn start_placing(&mut self, kind: TemplateKind) {
         self.end_tissues();
         if kind.facts().holds == Holds::Object {
             return self.start_carving(kind);
